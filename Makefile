@@ -112,7 +112,7 @@ study_second_family: $(READY)  ## identification rates on rigs that truly switch
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.self_excited --practice
 
-brake_bench: $(READY)  ## write the practice recordings of configs/disc_brake_bench.yaml to data/runs/practice
+brake_bench: $(READY)  ## write the practice recordings of configs/disc_brake_bench.yaml and squealing_brake_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.brake --practice
 
 worn_bench: $(READY)  ## write the practice recordings of configs/worn_pad.yaml to data/runs/practice

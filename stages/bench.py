@@ -12,7 +12,7 @@ from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.diagnosis.features.poles import features, observed, predicted
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.start_states import started
-from pipeline.products import Bench, BenchRun, Effects, Recording, ReducedModel
+from pipeline.products import Bench, BenchRun, BenchStops, Effects, Recording, ReducedModel
 
 
 def _check(sections):
@@ -51,6 +51,16 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=results)
 
 
+def _stops(stops):
+    """BenchStops of {run: Growth, or the reason why it tells none}."""
+    told = [None if isinstance(stop, str) else stop for stop in stops.values()]
+    column = {name: [0.0 if stop is None else getattr(stop, name) for stop in told]
+              for name in ("std", "begin", "end", "grown")}
+    root = np.array([0j if stop is None else stop.root for stop in told])
+    return BenchStops(stop=list(stops), growth_rate=root.real, frequency=root.imag / (2 * np.pi), **column,
+                      reason=[stop if isinstance(stop, str) else "" for stop in stops.values()])
+
+
 def _shown(whole, run):
     """Samples (c, n) of one recorded run."""
     return shown(whole, run.run, run.channels)
@@ -78,4 +88,5 @@ def _of_features(whole, recorded_runs, settings, context):
         results[one.name] = BenchRun(time=[0.0], measured=one.samples, predicted=told_by, valid=one.valid.astype(int),
                                    root_mean_square=abs(left), error=abs(left) / one.noise_std)
         context.log(f"{one.name}: {int(one.valid.sum())} features")
-    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=results)
+    stops = {name: _stops(one.stops) for name, one in seen.items() if one.stops}
+    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=results, stops=stops)

@@ -57,6 +57,16 @@ class Equation(Section):
     trim: int = option(0, "samples left out at both ends of a run, where filters settle", ge=0)
 
 
+class Onset(Section):
+    """Stops that squeal: the mode that grows between noise floor and saturation is compared."""
+
+    runs: tuple[str, ...] = option((), "runs that are such stops, also as patterns (stop_*), with their repeats; none"
+                                       " = those whose drive turns and whose motions grow until they saturate")
+    share: float = option(0.2, "fraction of the saturated amplitude up to which growth is fitted", gt=0, lt=1)
+    held: dict[str, float] = option({}, "recorded channel that has to hold while it squeals, as pressure or speed:"
+                                        " largest change within the window of growth, as a fraction of its mean")
+
+
 class Poles(Section):
     """Free vibrations are compared by their poles: taps and growth phases, each recorded twice."""
 
@@ -65,6 +75,7 @@ class Poles(Section):
     saturation: float = option(0.12, "share of the largest amplitude up to which growth counts as free", gt=0, le=1)
     resolution: float = option(1e-3, "least standard deviation of a pole as a share of its frequency: what the modes"
                                      " that the model leaves out may do", gt=0)
+    onset: Onset | None = option(None, "stops that squeal, compared by their growth; none = runs are taps")
 
 
 class Settings(Laws):

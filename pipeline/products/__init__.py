@@ -11,6 +11,7 @@ from pipeline.products.bodies import Body, Incidence, ModelUpdate
 from pipeline.products.diagnosis import (
     Bench,
     BenchRun,
+    BenchStops,
     DiagnosedRun,
     Diagnosis,
     Effects,
@@ -65,7 +66,7 @@ from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
 from pipeline.products.systems.matrices import Matrices, MatrixModes, MatrixTerm, RootsOfMatrices
 
-__all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
+__all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "BenchStops", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",

@@ -30,6 +30,20 @@ class BenchRun:
 
 
 @product(version=1)
+class BenchStops:
+    """Stops that squeal at one operating point, each by itself: growth between noise floor and saturation."""
+
+    stop: Array = text("stop", "recorded runs")
+    growth_rate: Array = quantity("1/s", "stop", "growth rate; 0 where the stop tells none")
+    frequency: Array = quantity("Hz", "stop", "frequency while it grows")
+    std: Array = quantity("rad/s", "stop", "standard deviation of growth rate and angular frequency")
+    begin: Array = quantity("s", "stop", "begin of the window")
+    end: Array = quantity("s", "stop", "its end")
+    grown: Array = quantity("1", "stop", "growth within the window in powers of e")
+    reason: Array = text("stop", "why the stop tells no growth; empty where it does")
+
+
+@product(version=2)
 class Bench:
     """The virtual rig: sensors, laws and inputs of the model, and its predictions for the recorded runs."""
 
@@ -37,6 +51,8 @@ class Bench:
     channel: Array = text("channel", "sensors in order")
     unit: Array = text("channel", "SI unit of each sensor")
     runs: dict[str, BenchRun] = parts("recorded runs by name")
+    stops: dict[str, BenchStops] = parts("stops that squeal, by the run that the others repeat; none where none are"
+                                         " read", empty=True)
 
 
 @product(version=1)

@@ -9,13 +9,14 @@ from pipeline.contract import store
 from pipeline.products import Comparison, Convergence, LockIn
 from pipeline.views.pages import facts
 from tests.chain.conftest import ROOT, brakechain
-from tests.studies import brake, self_excited, worn
+from tests.studies import brake, brake_stops, self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
-SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_matrix", "disc_brake_paper_joints", "bimaterial_rupture",
-                         "pin_on_disc", "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
-        **dict.fromkeys(("pin_on_disc_bench", "disc_brake_bench", "worn_pad", "disc_table1", "disc_brake_lines",
-                         "pin_on_disc_lines", "bimaterial_rupture_fine"), [pytest.mark.slow, pytest.mark.study]),
+SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_rupture", "pin_on_disc",
+                         "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
+        **dict.fromkeys(("disc_brake_matrix", "pin_on_disc_bench", "disc_brake_bench", "squealing_brake_bench",
+                         "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines",
+                         "bimaterial_rupture_fine"), [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
         **dict.fromkeys(("brake_matrices", "disc_brake_scanned", "tribometer_map"),
@@ -38,7 +39,8 @@ def test_a_case_runs_to_its_report(case, tmp_path):
     Quick variants have tests of their own.
     """
     for bench, first, study in (("pin_on_disc_bench", "bench_0.h5", self_excited), ("worn_pad", "worn_0.h5", worn),
-                                ("disc_brake_bench", "brake_0.h5", brake)):
+                                ("disc_brake_bench", "brake_0.h5", brake),
+                                ("squealing_brake_bench", "squealing_brake_0.h5", brake_stops)):
         if case.stem == bench and not (PRACTICE / first).exists():
             study.practice(PRACTICE)
     brakechain("run", case, "--run", tmp_path / "run")

@@ -20,6 +20,7 @@ from pipeline.blind_trial.metrics.criteria import judged
 from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import ConvergenceError
+from tests.studies import brake_stops
 from tests.studies.forced import answered, by_stages, recorded
 from tests.studies.self_excited import commanded
 
@@ -125,9 +126,15 @@ def practice(folder):
             (Path(made) / "truth.json").replace(folder / f"brake_{number}_truth.json")
 
 
+def all_practice(folder):
+    """The practice files of taps alone, and those of stops that squeal."""
+    practice(folder)
+    brake_stops.practice(folder)
+
+
 def main():
     """Write the practice files, or solve what is chosen and print the table."""
-    commanded("study_brake", __doc__, 7000, practice, plans, solve, table)
+    commanded("study_brake", __doc__, 7000, all_practice, plans, solve, table)
 
 
 if __name__ == "__main__":

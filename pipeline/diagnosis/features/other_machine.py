@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract import BrakechainError, ConfigError
-from pipeline.diagnosis.features.poles import assigned
+from pipeline.diagnosis.features.pairing import assigned
 from pipeline.diagnosis.rules import PoleRules
 from pipeline.physics.virtual_rig.modes import modes
 
@@ -29,7 +29,7 @@ def refuse(bench, shown, rules):
             root, shape = modes(bench, features.run)
         except BrakechainError:         # no steady state with these values: a fit may find one
             continue
-        nearest = root[assigned(features.seen, root, shape, rules)]
+        nearest = root[assigned(features.seen, root, features.shown(shape), rules)]
         seen = features.seen.root.imag / (2 * np.pi)
         beyond = abs(np.log(features.seen.root.imag / nearest.imag)) > rules.other_machine
         far[name], count = seen[beyond], count + len(seen)

@@ -1,16 +1,18 @@
 """Features of self-excited benches: poles of taps and growth phases, ratios of sensors, forces locked to the angle.
 
-Runs with motion channels are free vibrations: their poles count where two records (a run and its ``repeat_of``) show
-them; sensors that look at one point give the logarithm of their ratio and their delay. Runs with joint forces alone are
-slow turns: they give cosine and sine of the first orders. Every operating point is one record of features.
+Stops that squeal (``stops``) show the pole that grows. Other runs with motion channels are free vibrations: their poles
+count where two records (a run and its ``repeat_of``) show them; sensors that look at one point give the logarithm of
+their ratio and their delay. Runs with joint forces alone are slow turns: they give cosine and sine of the first orders.
+Every operating point is one record of features.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-import scipy
 
 from pipeline.contract import ConfigError
+from pipeline.diagnosis.features.pairing import assigned, merged, nearer
+from pipeline.diagnosis.features.stops import channels_of, stops_of
 from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.inference.problem import Observed
 from pipeline.physics.signals.pole_identification import (
@@ -18,7 +20,6 @@ from pipeline.physics.signals.pole_identification import (
     before_saturation,
     confirmed,
     fundamental,
-    likeness,
     steady_poles,
 )
 from pipeline.physics.virtual_rig.modes import modes, motions, order_locked
@@ -35,6 +36,8 @@ class Features:
     """What one operating point showed: Poles ``seen``, or none; ``values``, ``std`` {feature: SI value}.
 
     ``resolved``: rad/s that poles have to be apart to be told apart, 2 pi / length of the shortest record.
+    ``channels``: indices of the motion channels that shapes hold, none: all. ``stops`` {run: Growth, or why it tells
+    none}.
     """
 
     run: object
@@ -42,6 +45,12 @@ class Features:
     values: dict
     std: dict
     resolved: float = 0.0
+    channels: tuple = ()
+    stops: dict = field(default_factory=dict)
+
+    def shown(self, shape):
+        """Shapes (p, c) of all motion channels as these records show them."""
+        return shape[:, list(self.channels)] if self.channels else shape
 
 
 def features(bench, recorded, settings, rules=DEFAULTS.poles):
@@ -49,12 +58,16 @@ def features(bench, recorded, settings, rules=DEFAULTS.poles):
 
     Raises ConfigError where a run of free vibration has no repeat.
     """
-    result = {}
+    result, squealing = {}, stops_of(bench, recorded, settings)
     for name, record in recorded.items():
         _refuse_changing_speed(record.run)
         if record.repeat_of:
             continue
         again = [other for other in recorded.values() if other.repeat_of == name]
+        if stop := squealing.get(name):
+            shown = Features(record.run, stop.seen, {}, {}, 0.0, stop.channels, stop.stops)
+            result[name] = _told(bench, shown, settings, rules)
+            continue
         if not set(record.channels) & {c.name for c in motions(bench)}:
             result[name] = _turned(bench, record)
             continue
@@ -62,8 +75,8 @@ def features(bench, recorded, settings, rules=DEFAULTS.poles):
             raise ConfigError(f"run {name}", "a repeat: poles count where two records show them", "none",
                               "record it twice and set repeat_of")
         (first, apart), (second, other) = (_poles(bench, each, settings, rules) for each in (record, again[0]))
-        seen = fundamental(confirmed(first, second))
-        result[name] = _told(bench, Features(record.run, seen, {}, {}, max(apart, other)), settings, rules)
+        seen, there = fundamental(confirmed(first, second)), channels_of(bench, record)
+        result[name] = _told(bench, Features(record.run, seen, {}, {}, max(apart, other), there), settings, rules)
     return result
 
 
@@ -108,7 +121,10 @@ def _told(bench, features, settings, rules):
         values |= {frequency: root.imag / (2 * np.pi), growth: root.real}
         floor = settings.resolution * root.imag
         std |= {frequency: np.hypot(spread, floor) / (2 * np.pi), growth: np.hypot(spread, floor)}
-    for (first, second), (gain, delay) in _pairs(bench).items():
+    for (first, second), (gain, delay) in _pairs(bench).items() if not features.stops else ():
+        if not {first, second} <= set(features.channels or range(len(motions(bench)))):
+            continue
+        first, second = (features.channels.index(k) if features.channels else k for k in (first, second))
         heard = features.seen.of(_heard(features.seen.shape[:, [first, second]], rules))
         ratio = heard.shape[:, second] / heard.shape[:, first]
         trusted = 1 / (heard.std / abs(heard.root) + 1e-3) ** 2
@@ -171,7 +187,8 @@ def predicted(bench, features, channels, rules=DEFAULTS.poles):
     values = {}
     if features.seen is not None:
         root, shape = modes(bench, features.run)
-        nearest = merged(features.seen.root, root, assigned(features.seen, root, shape, rules), features.resolved)
+        index = assigned(features.seen, root, features.shown(shape), rules)
+        nearest = merged(features.seen.root, root, index, features.resolved)
         for k, near in enumerate(nearer(features.seen.root, nearest, rules), 1):
             values |= dict(zip(_named(k), (near.imag / (2 * np.pi), near.real), strict=True))
         moving = motions(bench)
@@ -184,44 +201,6 @@ def predicted(bench, features, channels, rules=DEFAULTS.poles):
             parts = np.column_stack((force.real, force.imag)).ravel()
             values |= dict(zip(_orders(channel.name), parts, strict=True))
     return np.array([[values.get(name, 0.0) if name in features.values else 0.0] for name in channels])
-
-
-def assigned(seen, root, shape, rules=DEFAULTS.poles):
-    """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape.
-
-    Each root explains one; a peak that none is left for, as where the model lacks a mode, falls to the likeliest.
-    Eigenvalues that cross on the way to their peaks are paired by mode shape; a distance of several times the prior
-    error counts less and less, so that a peak that is no mode does not move all others by one.
-    """
-    apart = abs(np.subtract.outer(seen.root, root)) / (rules.near * abs(seen.root))[:, None]
-    cost = apart / np.sqrt(1 + (apart / rules.far) ** 2) + 1 - likeness(seen.shape, shape)
-    index = cost.argmin(axis=1)
-    peaks, roots = scipy.optimize.linear_sum_assignment(cost)
-    index[peaks] = roots
-    return index
-
-
-def merged(seen, root, index, resolved):
-    """What (p,) the roots of these indices (p,) of peaks ``seen`` look like beside those that no peak is left for.
-
-    Two roots that a record cannot tell apart show as one peak between them: it is taken to lie where it was seen.
-    """
-    merged_roots, rest = root[index], np.delete(root, index)
-    for k, (peak, first) in enumerate(zip(seen, root[index], strict=True)):
-        toward = rest[abs(rest - first) < resolved] - first
-        share = np.clip(np.real((peak - first) * toward.conj()) / np.maximum(abs(toward) ** 2, 1e-300), 0, 1)
-        between = np.append(first, first + share * toward)
-        merged_roots[k] = between[np.argmin(abs(between - peak))]
-    return merged_roots
-
-
-def nearer(seen, root, rules=DEFAULTS.poles):
-    """Roots (p,) drawn towards those ``seen``: as they are where close, never farther than ``reach`` of one.
-
-    A peak that the model does not have is far from any root; how far says nothing.
-    """
-    apart = root - seen
-    return seen + apart / np.sqrt(1 + abs(apart / (rules.reach * seen)) ** 2)
 
 
 def _pairs(bench):

@@ -31,7 +31,7 @@ def state(samples, size):
     faintest = min(level.min(), level[0] * first[0] / np.sqrt(np.mean(first**2)))
     if level[-1] < _LOUDER * faintest:
         return QUIET
-    fastest = max(rate.max(), np.log(level[0] / faintest))
+    fastest = max(rate.max(), np.log(level[0] / max(faintest, 1e-300)))
     ended = level[-1] >= _OUTGROWN * faintest and rate[-_LAST:].mean() < _ENDED * fastest
     return SATURATED if ended else GROWING
 

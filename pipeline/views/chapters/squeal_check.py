@@ -5,6 +5,8 @@ from pipeline.views.figures.number_format import number
 
 #: rows of all tables together that are shown unfolded
 _ROWS = 14
+#: scatter over the mean from which agreement tells little
+_WIDE = 0.1
 
 
 def squeal_tables(product):
@@ -24,6 +26,20 @@ def squeal_tables(product):
                   "Features of saturated segments, mean ± standard deviation: for verification only, never by waveform",
                   tuple(range(2, 2 + len(who))), folded=len(features) > _ROWS)
     return (squealing, shown) if features else (squealing,)
+
+
+def squeal_note(product):
+    """What saturated squeal says of the last model that was simulated, and what it cannot say; '' where none was."""
+    checks = [(check, i) for check in product.squeal.values() if (i := len(check.who) - 1)]
+    compared = [(check, i, k) for check, i in checks for k in range(len(check.feature)) if check.known[[0, i], k].all()]
+    if not compared:
+        return ""
+    differ = sum(not check.agrees[i, k] for check, i, k in compared)
+    wide = sum(max(check.spread[0, k], check.spread[i, k]) > _WIDE * abs(check.mean[0, k]) for check, i, k in compared)
+    return (f"Saturated squeal: {differ} of {len(compared)} features differ between the recordings and the"
+            f" {checks[-1][0].who[-1]} model; {wide} scatter by more than {_WIDE:.0%} and would agree with much else."
+            " What limits the amplitude (contacts that open, friction that turns back) takes no part in the growth:"
+            " features that differ say that the model lacks it, and nothing against its poles.")
 
 
 def _row(check, who):

@@ -1,7 +1,7 @@
 """Tables of saturated squeal: who squeals, which features agree, and nothing unless asked."""
 
 from pipeline.products import SquealCheck
-from pipeline.views.chapters.squeal_check import squeal_tables
+from pipeline.views.chapters.squeal_check import squeal_note, squeal_tables
 from tests.views.diagnosis_for_views import diagnosis
 
 CHECK = SquealCheck(
@@ -28,3 +28,14 @@ def test_a_model_that_could_not_be_simulated_is_told():
 
 def test_without_asking_there_is_no_table():
     assert squeal_tables(diagnosis()) == ()
+
+
+def test_the_note_counts_what_differs_and_what_scatters_too_much_to_tell():
+    wide = SquealCheck(sentence="x", who=["recorded", "recalibrated"], records=[3, 3], squealing=[3, 3],
+                       feature=["frequency of laser", "level of laser", "mean of torque"], unit=["Hz", "m/s", "N m"],
+                       known=[[1, 1, 1], [1, 1, 0]], mean=[[1200.0, 0.18, 105.0], [1210.0, 0.12, 0.0]],
+                       spread=[[170.0, 0.01, 2.0], [10.0, 0.01, 0.0]], agrees=[[0, 0, 0], [1, 0, 0]])
+    note = squeal_note(diagnosis(squeal={"stop": wide}))
+    assert "1 of 2 features differ between the recordings and the recalibrated model" in note
+    assert "1 scatter by more than 10% and would agree with much else" in note
+    assert squeal_note(diagnosis()) == ""

@@ -68,14 +68,14 @@ def campaign():
     return tuple(Run(*each, k / (len(plan) - 1)) for k, each in enumerate(plan))
 
 
-def record(brake, seed):
-    """{run: dict} of a whole campaign as ``files.leave`` takes it, every run twice.
+def record(brake, seed, plan=None):
+    """{run: dict} of the runs of a ``plan``, none: a whole campaign, as ``files.leave`` takes it, every run twice.
 
     ConvergenceError where the brake squeals, or where a lining lifts off.
     """
     random, runs = np.random.default_rng([seed, 1]), {}
     gain = dict(zip(CHANNELS, 1 + _GAIN * random.standard_normal(len(CHANNELS)), strict=True))
-    for run in campaign():
+    for run in plan or campaign():
         root, shape, kick = vibrations(brake, run)
         if root.real.max() * DURATION > _GROWN:
             raise ConvergenceError("practice brake", "a brake that does not squeal",

@@ -50,19 +50,24 @@ def write(draw, folder, shape=None):
     random = np.random.default_rng([draw.seed, 2])
     drawn_shape = SHAPES[random.integers(len(SHAPES))]
     shape = shape or drawn_shape
-    values = {name: value * _factor(random, SPREAD[name]) for name, value in NOMINAL.items()}
-    values |= {f"loss_{order}": LOSS * _factor(random, SPREAD["loss"]) for order in range(ORDERS + 1)}
+    values = drawn_values(random)
     far = str(random.choice(tuple(_FAR_OFF))) if draw.kind == "wrong_value" else ""
     if far:
         values[far] = NOMINAL[far] * float(random.uniform(*FAR)) ** int(random.choice((-1, 1)))
-    hidden = {name: _sizes(random, name) for name in draw.hidden}
+    hidden = {name: sizes(random, name) for name in draw.hidden}
     seen = Seen(values, shape) if hidden and draw.kind != "sensor" else None
     if draw.kind == "below":
         hidden = _faint(seen, hidden, float(random.uniform(*BELOW)))
     case_files.leave(folder, nominal(shape), brake.record(built(values, shape, hidden=hidden), draw.seed))
     truth = {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": _known(values, shape),
-             "effects": [_told(*effect) for effect in hidden.items()], "wrong": _FAR_OFF.get(far, "")}
+             "effects": [named(*effect) for effect in hidden.items()], "wrong": _FAR_OFF.get(far, "")}
     return {**truth, "left": seen.left(hidden)} if seen else truth
+
+
+def drawn_values(random):
+    """{name: SI value} of a brake drawn about the drawing."""
+    values = {name: value * _factor(random, SPREAD[name]) for name, value in NOMINAL.items()}
+    return values | {f"loss_{order}": LOSS * _factor(random, SPREAD["loss"]) for order in range(ORDERS + 1)}
 
 
 def hides():
@@ -125,7 +130,7 @@ def _factor(random, spread):
     return float(np.exp(np.clip(spread * random.standard_normal(), -_LARGEST, _LARGEST)))
 
 
-def _sizes(random, name):
+def sizes(random, name):
     """Values of what is hidden, and where it is."""
     ends = {**brake.HIDDEN, **brake.FOREIGN, **brake.DECOYS, **FURTHER}[name]
     sizes = {key: float(random.uniform(*pair)) for key, pair in ends.items()}
@@ -139,7 +144,7 @@ def _sizes(random, name):
     return sizes
 
 
-def _told(name, values):
+def named(name, values):
     """{name, place, parameters} of what is hidden, in the words of the catalogue where they mean the same."""
     location = {"heated_disc": "disc", "slack_abutment": "abutments", "shim_damping": "fingers"}.get(name, "contact")
     known = {key: value for key, value in values.items() if key not in ("order", "sensor", "pad", "channel")}

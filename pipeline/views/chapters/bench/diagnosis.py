@@ -3,8 +3,9 @@
 import numpy as np
 
 from pipeline.views.chapters.bench.hypotheses import combination_table, hypothesis_table, words
+from pipeline.views.chapters.bench.model_errors import changes, differs, error_table, held_out_stops, stop_table
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
-from pipeline.views.chapters.squeal_check import squeal_tables
+from pipeline.views.chapters.squeal_check import squeal_note, squeal_tables
 from pipeline.views.figures.bench import diagnosis as pictures
 from pipeline.views.figures.bench import latent_force
 from pipeline.views.figures.number_format import number, percent, quantity, scale
@@ -34,9 +35,10 @@ def headline(product):
 
 def note(product):
     """(question, answer) pairs that the first screen shows."""
-    return (("What differs", _differs(product)), ("Where", _where(product)), ("What is missing", _missing(product)),
-            ("How certain", _how_certain(product)), ("What it changes", _changes(product)),
-            ("What is left", _left(product)), ("Measure next", _next(product)))
+    return (("What differs", differs(product)), ("Where", _where(product)), ("What is missing", _missing(product)),
+            ("How certain", _how_certain(product)), ("What it changes", changes(product)),
+            ("Held-out squeal", held_out_stops(product)), ("What is left", _left(product)),
+            ("Measure next", _next(product)))
 
 
 def chapter(product, look):
@@ -44,11 +46,12 @@ def chapter(product, look):
     answers = dict(note(product))
     return Chapter(
         "diagnosis", "What the recordings say is missing", f"{answers['What differs']} {answers['Where']}",
-        " ".join(filter(None, (answers["What is missing"], answers["What it changes"], answers["What is left"],
-                               answers["Measure next"]))),
+        " ".join(filter(None, (answers["What is missing"], answers["What it changes"], answers["Held-out squeal"],
+                               answers["What is left"], answers["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
-            _errors(product), _with_force(product), *squeal_tables(product), _parameters(product), _starts(product),
-            hypothesis_table(product), combination_table(product), _location(product), _thresholds(product)))),
+            error_table(product), stop_table(product), _with_force(product), *squeal_tables(product),
+            _parameters(product), _starts(product), hypothesis_table(product),
+            combination_table(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
 
@@ -148,16 +151,6 @@ def _at(product):
     return f" at {product.latent_place.item()}" if product.latent_place.item() else ""
 
 
-def _differs(product):
-    runs = list(product.runs.values())
-    part = 1 if any(r.held_out for r in runs) else 0
-    nominal, recalibrated, completed, noise = product.fit[part]
-    subject = "On held-out runs the" if part else "The"
-    return (f"{subject} error of the nominal model is {percent(nominal, 2)} of the standard deviation of the"
-            f" recordings, {percent(recalibrated, 2)} after its parameters are refitted; noise alone would leave"
-            f" {percent(noise, 2)}.")
-
-
 def _where(product):
     parts = []
     for axis, phrase in (("stage", "in stage {}"), ("substitution", "in stage {} (by substituting measurements)"),
@@ -237,20 +230,6 @@ def _sentence(text):
     return text if text.endswith(".") else f"{text}."
 
 
-def _changes(product):
-    held_out = any(r.held_out for r in product.runs.values())
-    nominal, recalibrated, completed, noise = product.fit[1 if held_out else 0]
-    runs = "the held-out runs" if held_out else "the fitted runs"
-    if product.verdict.item() == "parameters":
-        return f"With the fitted values the model predicts {runs} within {percent(recalibrated, 2)}" \
-               f" (nominal {percent(nominal, 2)}, noise {percent(noise, 2)})."
-    if not len(product.named):
-        return ""
-    return (f"The completed model predicts {runs} within {percent(completed, 2)} (without the effect, refitted:"
-            f" {percent(recalibrated, 2)}; noise {percent(noise, 2)}); {percent(product.unexplained_share, 2)} of the"
-            " excess error remains unexplained.")
-
-
 def _next(product):
     if not len(product.next_condition):
         return ""
@@ -268,6 +247,8 @@ def _notes(product):
             " it is not used in any prediction.")
     if product.latent_use.item():
         yield product.latent_use.item()
+    if sentence := squeal_note(product):
+        yield sentence
 
 
 def _figures(product):
@@ -324,16 +305,6 @@ def _shown_run(product):
         if run.held_out:
             return name, True
     return max(product.runs, key=lambda n: product.runs[n].error[1]), False
-
-
-def _errors(product):
-    rows = [(name, "held out" if run.held_out else "fitted", *(percent(e, 3) for e in run.error))
-            for name, run in product.runs.items()]
-    for row, title in enumerate(("all fitted", "all held out")):
-        if product.fit[row].any():
-            rows.append((title, "", *(percent(e, 3) for e in product.fit[row])))
-    head = ("run", "", "nominal", "recalibrated", "completed", "noise alone")
-    return Table(head, tuple(rows), "Error over standard deviation", numeric=(2, 3, 4, 5))
 
 
 def _with_force(product):

@@ -54,7 +54,7 @@ def test_values_are_off_and_one_may_be_far_off(tmp_path, short):
 
 @pytest.mark.parametrize("name", [*brake.HIDDEN, *brake.DECOYS, *brake.FOREIGN])
 def test_told_names_and_values_are_those_of_the_catalogue(name):
-    told = brake_files._told(name, brake_files._sizes(np.random.default_rng(1), name))
+    told = brake_files.named(name, brake_files.sizes(np.random.default_rng(1), name))
     effect = next((e for e in CATALOGUE if e.name == name), None)
     assert (effect is None) == (name in brake.FOREIGN)
     if effect:

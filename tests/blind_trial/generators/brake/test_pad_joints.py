@@ -87,7 +87,7 @@ def test_lifted_an_abutment_that_stiffens_shows_nothing():
 
 @pytest.mark.parametrize("name", pad_joints.FURTHER)
 def test_told_names_and_values_are_those_of_the_catalogue(name):
-    told = brake_files._told(name, brake_files._sizes(np.random.default_rng(1), name))
+    told = brake_files.named(name, brake_files.sizes(np.random.default_rng(1), name))
     effect = next(e for e in CATALOGUE if e.name == name)
     assert set(told["parameters"]) == set(pad_joints.FURTHER[name])
     assert set(told["parameters"]) <= {p.name for p in effect.parameters(Typical())}
