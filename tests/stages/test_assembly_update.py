@@ -124,6 +124,7 @@ def test_from_frequency_responses_with_noise_to_joints():
     assert (abs(apart) < 2 * spread).all() and (abs(apart[:2]) < 0.05).all() and result.clear.sum() >= 6
 
 
+@pytest.mark.slow
 def test_another_brake_is_refused():
     """Pads and caliper of other sizes and joints of other stiffness: nothing settles."""
     other = COARSE | SMALL | {

@@ -108,6 +108,7 @@ def brake():
     return model, law, complex_modes(model, law, settings=Modes(friction_steps=2, frequency_max="8 kHz"))
 
 
+@pytest.mark.slow
 def test_the_number_of_workers_changes_no_bit_and_draws_agree_with_the_whole_model(brake):
     one = noise_matrix(*brake, settings=settings(**BRAKE))
     two = noise_matrix(*brake, settings=settings(**BRAKE), context=TwoProcesses())

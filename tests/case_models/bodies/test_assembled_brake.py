@@ -53,6 +53,7 @@ def test_pressed_pads_are_as_stiff_as_their_pressure():
     assert brake.weights[outer].sum() == pytest.approx(contacts.area[outer].sum(), rel=0.02)
 
 
+@pytest.mark.slow
 def test_slopes_are_those_of_differences_whether_of_springs_or_of_bodies():
     values = {"joints.finger_stiffness": 0.3, "pressed.tangential_stiffness": 0.2, "caliper.density": 0.1,
               "pad.lining_young_normal": 0.1}

@@ -11,6 +11,7 @@ from pipeline.systems import disc_brake
 from pipeline.systems.disc_brake_joints import joints
 
 
+@pytest.mark.slow
 def test_every_stiffness_moves_springs_of_its_own():
     """With bracket and piston as bodies: each spring is in proportion to one stiffness, and each has springs."""
     parts = {"disc": Disc(web_cells=2, ring_cells=2, angular_cells=12), "pad": Pad(), "sensors": (),
