@@ -71,6 +71,18 @@ def test_wrong_values_are_told_with_what_was_given():
     assert told["What is missing"].endswith("joints.guide.damping 215 ± 4\u202fN s/m (given 200\u202fN s/m).")
 
 
+def test_of_many_wrong_values_those_that_changed_most_are_listed():
+    count = 12
+    value = 100.0 * (1 + np.arange(1, count + 1) / 100)
+    many = diagnosis("parameters", parameter=[f"joints.j{k}.damping" for k in range(count)],
+                     parameter_unit=["N s/m"] * count, parameter_nominal=np.full(count, 100.0), parameter_value=value,
+                     parameter_std=np.full(count, 0.1), parameter_owner=np.zeros(count, int),
+                     parameter_factor=np.zeros(count, int))
+    told = dict(note(many))["What is missing"]
+    assert told.startswith("No physics; these values differ: joints.j11.damping 112 ± 0.1")
+    assert "j4.damping" in told and "j3.damping" not in told and told.endswith("4 others by up to 4\u202f%.")
+
+
 def test_a_description_is_never_called_physics():
     found = diagnosis("unknown")
     assert dict(note(found))["What is missing"].endswith(found.latent_sentence.item())

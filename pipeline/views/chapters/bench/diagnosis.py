@@ -15,6 +15,8 @@ REGIMES = ("amplitude", "velocity", "time")
 AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
 #: verdict of a tie with one member: a single run, or a list alone, cannot confirm an effect
 _PROPOSED = "Proposed, not confirmed"
+#: values that are listed on the first screen; the table holds all
+_VALUES = 8
 
 
 def headline(product):
@@ -187,8 +189,20 @@ def _missing(product):
     if verdict == "parameters":
         every = range(len(product.parameter))
         moved = [k for k in every if _distance(product, k) > 2] or [max(every, key=lambda k: _distance(product, k))]
-        return f"No physics; these values differ: {'; '.join(_value(product, k, given=True) for k in moved)}."
+        return f"No physics; these values differ: {_most_changed(product, moved)}."
     return "Nothing that these recordings can reveal."
+
+
+def _most_changed(product, moved):
+    """Values ``moved`` (indices), those that changed most where they are many, and how far the others changed."""
+    def change(k):
+        given = product.parameter_nominal[k]
+        return abs(product.parameter_value[k] / given - 1) if given else np.inf
+
+    first = moved if len(moved) <= _VALUES else sorted(moved, key=change, reverse=True)[:_VALUES]
+    told = "; ".join(_value(product, k, given=True) for k in first)
+    rest = [change(k) for k in moved if k not in first]
+    return f"{told}; {len(rest)} others by up to {percent(max(rest), 2)}" if rest else told
 
 
 def _value(product, k, given=False):
