@@ -31,8 +31,8 @@ from pipeline.recordings.waveform import Waveform
 _SECONDS, _BYTES_A_SECOND = 15, 5_000_000
 #: bytes of memory that it has: so many, and so many for each of the file
 _MEMORY, _MEMORY_A_BYTE = 3_000_000_000, 24
-#: wall clock over time of the processor before a reader is stopped that waits
-_PATIENCE = 3
+#: wall clock over time of the processor before a reader is stopped that waits, on a machine that does other work too
+_PATIENCE = 10
 _ERROR, _COLUMNS, _RUNS, _SAID = "error.json", "columns.json", "runs.h5", "said.txt"
 
 
