@@ -68,6 +68,7 @@ def test_correlated_priors_turn_the_slopes():
     np.testing.assert_allclose(brake(np.zeros(2)).slope, slopes_by_differences(brake, 2), atol=2e-6)
 
 
+@pytest.mark.slow
 def test_bodies_are_reduced_once_while_only_joints_vary(monkeypatch):
     calls, reduce = [], assembled_brake.reduced_body
     monkeypatch.setattr(assembled_brake, "reduced_body", lambda *given: calls.append(1) or reduce(*given))
@@ -83,6 +84,7 @@ def test_bodies_are_reduced_once_while_only_joints_vary(monkeypatch):
     assert len(calls) == 4 + 4 + 2
 
 
+@pytest.mark.slow
 def test_bracket_piston_and_fluid_are_part_of_it():
     """Against the sparse matrices of the whole with the fluid as a spring that ends on the inertia of the line."""
     values = {"joints.mount_stiffness": 0.2, "joints.shim_stiffness": 0.2}
