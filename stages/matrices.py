@@ -51,6 +51,9 @@ def matrices(settings: Settings, context: Context) -> Matrices:
     held = {name: (kind, term, read(term.file, term.variable)) for kind in KINDS
             for name, term in getattr(settings, kind).items()}
     labels, size = _freedoms(held)
+    for name, (kind, _, entries) in held.items():
+        if kind == "mass":
+            _refuse_masses(entries.matrix(), f"matrices.{kind}.{name}")
     terms = {name: _term(kind, term, *_placed(entries, labels), f"matrices.{kind}.{name}")
              for name, (kind, term, entries) in held.items()}
     for name, (_, _, entries) in held.items():
@@ -86,8 +89,6 @@ def _placed(entries, labels):
 
 
 def _term(kind, term, row, column, value, where):
-    if kind == "mass":
-        _refuse_masses(row, column, value, where)
     dependence = summands(term.times, f"{where}.times")
     scale = 1.0 if term.at_frequency is None else 1 / (2 * np.pi * term.at_frequency)
     coefficient, speed, friction = zip(*dependence, strict=True)
@@ -95,12 +96,8 @@ def _term(kind, term, row, column, value, where):
                       value=scale * value, coefficient=coefficient, speed_power=speed, friction_power=friction)
 
 
-def _refuse_masses(row, column, value, where):
+def _refuse_masses(matrix, where):
     """ConfigError for a mass matrix that is not symmetric, or has a negative mass on its diagonal."""
-    from scipy.sparse import coo_matrix
-
-    size = max(row.max(), column.max()) + 1
-    matrix = coo_matrix((value, (row, column)), (size, size)).tocsr()
     if abs(matrix - matrix.T).max() > _SYMMETRIC * abs(matrix).max():
         raise ConfigError(where, "a symmetric mass matrix", "another one", "is it the stiffness?")
     if matrix.diagonal().min() < 0:

@@ -83,7 +83,7 @@ def _growing(settings, roots):
 
 def _leading(settings, found):
     """(largest growth rate, its frequency, number of modes that grow)."""
-    roots = np.array([mode.root for mode in found.modes])
+    roots = found.roots
     if not len(roots):
         return 0.0, 0.0, 0
     first = roots[roots.real.argmax()]
@@ -98,14 +98,13 @@ def _roots(family, reference, found, settings, context):
     """RootsOfMatrices of the operating points."""
     tasks = []
     for speed, one in zip(settings.speeds, found, strict=True):
-        roots = np.array([mode.root for mode in one.modes])
-        tasks += [(speed / reference, one.modes[k]) for k in _growing(settings, roots)]
+        tasks += [(speed / reference, one.modes[k]) for k in _growing(settings, one.roots)]
     outcome = context.map(partial(_followed, family, settings.friction, context.solver), tasks, "unstable modes")
     counts = [len(one.modes) for one in found]
     number = {speed / reference: k for k, speed in enumerate(settings.speeds)}
     return RootsOfMatrices(
         speed=settings.speeds, searched=STRIP * settings.frequency_max,
-        root_operating=np.repeat(np.arange(len(counts)), counts), root=[m.root for one in found for m in one.modes],
+        root_operating=np.repeat(np.arange(len(counts)), counts), root=np.concatenate([one.roots for one in found]),
         unstable_operating=[number[speed] for speed, _ in tasks], unstable_root=[o[0] for o in outcome],
         residual=[o[1] for o in outcome], per_term=np.reshape([o[2] for o in outcome], (-1, len(family.terms))),
         per_speed=[o[3][0] for o in outcome], per_friction=[o[3][1] for o in outcome])

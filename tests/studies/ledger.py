@@ -30,8 +30,7 @@ class Ledger:
                git_commit()[:10])
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with self.path.open("a", newline="", encoding="utf-8") as file:
-            lines = ([COLUMNS] if file.tell() == 0 else []) + [row]
-            file.write("".join(",".join(_quoted(cell) for cell in line) + "\n" for line in lines))
+            csv.writer(file, lineterminator="\n").writerows([COLUMNS, row] if file.tell() == 0 else [row])
 
     def tidy(self):
         """Write the file anew, one row a case, in the order of their names."""
@@ -50,8 +49,3 @@ def answer_of(row):
     effects = [dict(zip(("name", "place"), each.split(" at ", 1), strict=True))
                for each in row["named"].split("; ") if each]
     return {"verdict": row["verdict"], "effects": effects, "cpu_seconds": float(row["cpu_seconds"])}
-
-
-def _quoted(cell):
-    text = str(cell)
-    return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"\n') else text

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.case_models.noise_matrix.schedule import DRAG, STOP
-from pipeline.physics.stability.draw_statistics import band_of
 
 #: what channels measure of a condition, and its unit; a speed in m/s is that of the vehicle
 _MEASURES = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "speed"), "rad/s"),
@@ -45,11 +44,7 @@ def _squeals(events, run, bands):
     records = np.flatnonzero(events.record_run == run)
     sound = records[events.record_kind[records] == "sound"]
     heard = (events.event_kind == "squeal") & np.isin(events.event_record, sound if len(sound) else records)
-    frequency = events.event_frequency[heard]
-    frequency = frequency[(frequency >= bands.low) & (frequency <= bands.high)]
-    noisy = np.zeros(len(bands.middle), bool)
-    noisy[np.clip(band_of(frequency, bands.middle), 0, len(bands.middle) - 1)] = True
-    return noisy
+    return bands.holding(events.event_frequency[heard])
 
 
 def _course(run, radius):

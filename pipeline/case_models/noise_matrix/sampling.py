@@ -39,7 +39,10 @@ class Bands:
         """(b,) whether an unstable one of ``roots`` (r,) 1/s lies in each band."""
         size = abs(roots)
         counts = roots.real > np.maximum(self.neutral * size, self.least)
-        frequency = size[counts] / TWO_PI
+        return self.holding(size[counts] / TWO_PI)
+
+    def holding(self, frequency):
+        """(b,) whether one of the frequencies (n,) Hz lies in each band."""
         inside = frequency[(frequency >= self.low) & (frequency <= self.high)]
         held = np.zeros(len(self.middle), bool)
         held[np.clip(band_of(inside, self.middle), 0, len(self.middle) - 1)] = True

@@ -48,17 +48,6 @@ class MatrixFamily:
         return tuple(sum((term.factor(speed, friction) * term.matrix for term in self.terms if term.kind == kind),
                          scipy.sparse.csr_matrix((self.size, self.size))) for kind in ("mass", "damping", "stiffness"))
 
-    def projected(self, basis):
-        """The family on ``basis`` (n, d): dense terms (d, d)."""
-        return MatrixFamily(tuple(Term(t.name, t.kind, basis.T @ (t.matrix @ basis), t.summands) for t in self.terms))
-
-    def dense_at(self, speed, friction):
-        """(M, C, K) (d, d) of a projected family."""
-        held = {kind: np.zeros((self.size, self.size)) for kind in ("mass", "damping", "stiffness")}
-        for term in self.terms:
-            held[term.kind] += term.factor(speed, friction) * term.matrix
-        return tuple(held.values())
-
     def derivatives(self, mode, speed, friction):
         """(t,) ds per relative change of each term, and (2,) per ln speed and ln friction, of a Mode (right, left).
 

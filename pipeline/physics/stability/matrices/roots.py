@@ -47,6 +47,11 @@ class Found:
     modes: tuple
     discs: np.ndarray
 
+    @property
+    def roots(self):
+        """Roots (m,) 1/s of the modes."""
+        return np.array([mode.root for mode in self.modes])
+
 
 def strip_modes(matrices, highest, solver):
     """Found: all modes of sparse ``matrices`` (M, C, K) up to ``highest`` Hz within the strip about the imaginary axis.
