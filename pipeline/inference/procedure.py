@@ -24,6 +24,7 @@ from pipeline.inference.fitting.refitted import NOT_BEGUN
 from pipeline.inference.fitting.refitting import Refitter, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.search.score_screen import screen_catalogue
+from pipeline.inference.search.selection import Combination, merged, sets_and_parts
 
 #: share of the best candidate's gain at which another one tells that its place matters
 _FELT = 0.05
@@ -95,16 +96,28 @@ class Asked:
         if best is not None and (reaches_noise(single, rules)
                                  or not second_effect.has_room(best, best.betters(single.null), rules)):
             return single
-        selection = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
-        if selection is None:
+        along = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
+        if along is None:
             return self.pairs(single, self.catalogue)
+        selection = along.selected()
         if selection.left > rules.decision.along_motions:
             pair = self.pairs(single, self.catalogue)
             if pair.base is not None and reaches_noise(pair, rules):
                 return pair
-        best = self.together(single, selection)
+        best = self._simple_first(single, along, selection)
         unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
         return self.pairs(best, unseen) if best.base is None and unseen else best
+
+    def _simple_first(self, single, along, selection):
+        """``together`` of a Selection along motions, unless candidates that are not elaborate reach the noise."""
+        elaborate = {i for i, c in enumerate(self.catalogue) if c.elaborate}
+        if elaborate.isdisjoint((*selection.members, *selection.wider)):
+            return self.together(single, selection)
+        simple = self.together(single, along.selected(elaborate))
+        if simple.base is not None and reaches_noise(simple, self.settings.rules):
+            return simple
+        best = self.together(replace(single, combinations=simple.combinations), selection)
+        return replace(simple, combinations=best.combinations) if best.base is None else best
 
     def by_the_screen(self, single):
         """The Diagnosis of several laws that explain only together by the screen of ``single``, else that."""
@@ -120,25 +133,29 @@ class Asked:
 
         Where nothing is named a law that gives little along motions may be what the others lack.
         """
-        tried, wider = selection.tried, (selection.wider,) if single.decision.verdict == "unknown" else ()
+        tried, wider = merged(single.combinations, selection.tried), single.decision.verdict == "unknown"
+        begun = {frozenset(c.effects) for c in tried if c.outcome}
         lacking = []        # sets that leave too much: so do those that are parts of them
-        for members in several.sets_and_parts(selection.members, *wider):
-            if any(set(members) < larger for larger in lacking):
+        for members in sets_and_parts(selection.members, *[selection.wider] * wider):
+            if any(set(members) < larger for larger in lacking) or self._names(members) in begun:
                 continue
             whole, combination, enough = self._set(single, selection, members)
-            tried = (combination, *(c for c in tried if set(c.effects) != set(combination.effects)))
+            tried = merged((combination,), tried)
             if whole is not None:
                 return replace(whole, combinations=tried)
             if not enough:
                 lacking.append(set(members))
         return replace(single, combinations=tried)
 
+    def _names(self, members):
+        return frozenset(self.catalogue[i].name for i in members)
+
     def _set(self, single, selection, members):
         """(Diagnosis that names the last of ``members`` beside the others or None, Combination: what became of it,
         whether it explains enough)."""
         *known, last = (self.catalogue[i] for i in members)
         names = tuple(c.name for c in (*known, last))
-        tried = next((c for c in selection.tried if set(c.effects) == set(names)), several.Combination(names, 0.0))
+        tried = next((c for c in selection.tried if set(c.effects) == set(names)), Combination(names, 0.0))
         asked = self.given(known)
         try:
             calibration, results = asked.begun_together(single.null, selection.start(members), last)
@@ -150,12 +167,24 @@ class Asked:
             if left > self.settings.rules.decision.unexplained:
                 return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
             whole, why = asked.named_together(single, calibration, results, known)
+            for law in tuple(c for c in known if c.elaborate):
+                if whole is not None:
+                    known = [*(c for c in known if c is not law), whole.named[0].candidate]
+                    whole, why = self._weighed_beside(single, whole.named[0].fit, law, known)
         except BrakechainError as error:
             return None, replace(tried, outcome=str(error)), True
         if whole is None:
             return None, replace(tried, outcome=why), True
-        named = (*names[:-1], *(w.candidate.name for w in whole.named))
+        named = (*(c.name for c in known), *(w.candidate.name for w in whole.named))
         return whole, replace(tried, effects=named, outcome="named"), True
+
+    def _weighed_beside(self, single, fit, law, known):
+        """``named_together`` of one ``law`` of those whose Fit is given, the others ``known``: what is elaborate has
+        rivals that are it nearly."""
+        asked, names = self.given(known), [p.name for p in fit.hypothesis.parameters]
+        start = fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
+        calibration, results = asked.begun_together(single.null, start, law)
+        return asked.named_together(single, calibration, results, known)
 
     def begun_together(self, null, start, last):
         """(Calibration of the laws that are taken as known, {index: Refitted} of one more, the Hypothesis ``last``)

@@ -13,49 +13,13 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting.fit_state import from_prior_mean
+from pipeline.inference.fitting.fit_state import Fit, from_prior_mean
 from pipeline.inference.fitting.least_squares import fit
-from pipeline.inference.problem import Motions
+from pipeline.inference.problem import Motions, Problem
+from pipeline.inference.rules import DecisionRules
 from pipeline.inference.search.score_screen import directions_with_tones, scaled
+from pipeline.inference.search.selection import Combination, Selection
 from pipeline.inference.search.subset_selection import best_subsets, left_by, multiplicity, table
-
-
-@dataclass(frozen=True)
-class Combination:
-    """A combination of candidates that was tried: their ``effects`` (name, ...) and the ``gain`` of its evidence.
-
-    ``gain``: ln Z over the nominal model along measured motions or linearised, multiplicity paid for. ``objective`` of
-    its refit and ``held_out`` error there in noise floors, None where it was not refitted. ``outcome``: in words.
-    """
-
-    effects: tuple
-    gain: float
-    objective: float | None = None
-    held_out: float | None = None
-    outcome: str = ""
-
-
-@dataclass(frozen=True)
-class Selection:
-    """``members``: indices of the candidates of the best set, the least necessary last; ``tried`` (Combination, ...).
-
-    ``wider``: the same of the best set whose members need not give a share that an error of the others cannot.
-    ``nominal`` (k,): latent values of the nominal parameters beside them; ``values`` {index: (j,)}: those of members.
-    ``judged``: indices of the candidates whose part measured motions can show; ``left``: noise powers that the best
-    set leaves along them.
-    """
-
-    members: tuple
-    wider: tuple
-    tried: tuple
-    nominal: np.ndarray
-    values: dict
-    judged: frozenset
-    left: float
-
-    def start(self, members):
-        """Latent values of the nominal parameters and of ``members``, in that order."""
-        return np.concatenate([self.nominal, *(self.values[i] for i in members)])
 
 
 @dataclass(frozen=True)
@@ -92,14 +56,31 @@ class _Columns:
 
 
 def along_motions(null, catalogue, motions: Motions, rules, fan_out):
-    """Selection along Motions that the Fit ``null`` of the nominal hypothesis completes; None where they fail."""
+    """Along of the Motions that the Fit ``null`` of the nominal hypothesis completes; None where they fail."""
     try:
         along = motions.along(null)
         null = fit(along, null.noises, along.nominal, null.latent, along.runs)
     except BrakechainError:
         return None
     every = tuple(fan_out(partial(directions_with_tones, along, null), catalogue))
-    return _selected(null, _of_physics(every, catalogue), catalogue, rules, along)
+    return Along(null, _of_physics(every, catalogue), catalogue, rules, along)
+
+
+@dataclass(frozen=True)
+class Along:
+    """Problem ``along`` measured motions with the Fit ``null`` of its nominal hypothesis and the Directions ``every``
+    of a ``catalogue``."""
+
+    null: Fit
+    every: tuple
+    catalogue: tuple
+    rules: DecisionRules
+    along: Problem
+
+    def selected(self, without=frozenset()):
+        """Selection among all candidates but those ``without`` (indices)."""
+        every = tuple(_unseen(d) if i in without else d for i, d in enumerate(self.every))
+        return _selected(self.null, every, self.catalogue, self.rules, self.along)
 
 
 def linearised_about(null, every, catalogue, rules):
@@ -110,8 +91,11 @@ def linearised_about(null, every, catalogue, rules):
 def _of_physics(every, catalogue):
     """The Directions, none of a candidate that changes what sensors show: several together shrink all data, which takes
     away what is left without explaining anything."""
-    return tuple(d if c.kind == "physics" else replace(d, vectors=d.vectors[:0], sign=d.sign[:0], tried=())
-                 for d, c in zip(every, catalogue, strict=True))
+    return tuple(d if c.kind == "physics" else _unseen(d) for d, c in zip(every, catalogue, strict=True))
+
+
+def _unseen(directions):
+    return replace(directions, vectors=directions.vectors[:0], sign=directions.sign[:0], tried=())
 
 
 def _selected(null, every, catalogue, rules, along=None):
@@ -187,9 +171,3 @@ def _necessary(columns, gains, evidence_gain, share):
         if needed:
             return tuple(sorted(members, key=lambda m: -lost[m]))
     return ()
-
-
-def sets_and_parts(*members):
-    """[(index, ...)]: each of the sets ``members``, followed by what is left without its last ones, none twice."""
-    smaller = [each[:count] for each in members for count in range(len(each), 1, -1)]
-    return list({frozenset(each): each for each in smaller}.values())

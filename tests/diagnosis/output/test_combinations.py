@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 from pipeline.diagnosis.output.combinations import NOT_REFITTED, as_rows, combinations
-from pipeline.inference.several import Combination
+from pipeline.inference.search.selection import Combination
 
 TRIED = (Combination(("coulomb at mount", "cubic_stiffness at mount"), 12.5, 130.0, 1.1, "named"),
          Combination(("coulomb at mount",), 3.0))
