@@ -93,9 +93,10 @@ class Asked:
     def along(self, single, motions):
         """The Diagnosis of several laws, selected along Motions, or ``single``; what motions do not show in pairs."""
         rules, best = self.settings.rules, next((w.fit for w in single.named), None)
-        if best is not None and (reaches_noise(single, rules)
-                                 or not second_effect.has_room(best, best.betters(single.null), rules)):
+        if best is not None and not second_effect.has_room(best, best.betters(single.null), rules):
             return single
+        if best is not None and reaches_noise(single, rules):
+            return self.pairs(single, self.catalogue)
         along = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
         if along is None:
             return self.pairs(single, self.catalogue)
