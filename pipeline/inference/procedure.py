@@ -159,14 +159,14 @@ class Asked:
         tried = next((c for c in selection.tried if set(c.effects) == set(names)), Combination(names, 0.0))
         asked = self.given(known)
         try:
-            calibration, results = asked.begun_together(single.null, selection.start(members), last)
-            fit = next((r.fit for r in results.values()), None)
+            fit = asked.fitted_together(single.null, selection.start(members), last)
             if fit is None:
                 return None, replace(tried, outcome=NOT_BEGUN.failure), True
             left, error = several_laws.left_by(asked.problem, self.budget, single.null, fit, self.settings.rules)
             tried = replace(tried, objective=fit.objective, held_out=error)
             if left > self.settings.rules.decision.unexplained:
                 return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
+            calibration, results = asked.begun_together(single.null, fit.latent, last)
             whole, why = asked.named_together(single, calibration, results, known)
             for law in tuple(c for c in known if c.elaborate):
                 if whole is not None:
@@ -186,6 +186,14 @@ class Asked:
         start = fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
         calibration, results = asked.begun_together(single.null, start, law)
         return asked.named_together(single, calibration, results, known)
+
+    def fitted_together(self, null, start, last):
+        """Fit of the laws that are taken as known and one more, the Hypothesis ``last``, from latent values ``start`` of
+        all, or None; ``null``: Fit of the nominal model alone. A tone needs what the others leave to begin."""
+        if tone_starts.tone_of(last):
+            return next((r.fit for r in self.begun_together(null, start, last)[1].values()), None)
+        begin = linearised(self.problem, null.noises, self.problem.nominal.joined(last), start, null.runs)
+        return continued(self.problem, begin, patient=False)
 
     def begun_together(self, null, start, last):
         """(Calibration of the laws that are taken as known, {index: Refitted} of one more, the Hypothesis ``last``)
