@@ -188,12 +188,13 @@ class Asked:
         return asked.named_together(single, calibration, results, known)
 
     def fitted_together(self, null, start, last):
-        """Fit of the laws that are taken as known and one more, the Hypothesis ``last``, from latent values ``start`` of
-        all, or None; ``null``: Fit of the nominal model alone. A tone needs what the others leave to begin."""
+        """Fit of the laws that are taken as known and of a Hypothesis ``last``, from latent values ``start`` of all, or
+        None; ``null``: Fit of the nominal model alone. Given up where it would leave too much. A tone needs what the
+        others leave to begin."""
         if tone_starts.tone_of(last):
             return next((r.fit for r in self.begun_together(null, start, last)[1].values()), None)
         begin = linearised(self.problem, null.noises, self.problem.nominal.joined(last), start, null.runs)
-        return continued(self.problem, begin, patient=False)
+        return continued(self.problem, begin, enough=several_laws.hoped(null, self.settings.rules), patient=False)
 
     def begun_together(self, null, start, last):
         """(Calibration of the laws that are taken as known, {index: Refitted} of one more, the Hypothesis ``last``)

@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.inference.decision.candidate_statistics import held_out_gains, unexplained
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.decision.held_out import gain, held_out_residuals, judged
+from pipeline.inference.fitting.effective_sample_size import doubt
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 
@@ -67,6 +68,14 @@ def against(null, problem, budget, weighing, rules):
         return replace(weighed, statistics=statistics)
 
     return replace(weighing, weighed=tuple(of_all(k, w) for k, w in enumerate(weighing.weighed)))
+
+
+def hoped(null, rules, times=2.0):
+    """Objective that a fit has to promise so that it may leave no more than is allowed of the excess error of the Fit
+    ``null``; ``times``: priors add to what it leaves."""
+    counts = null.counts.sum()
+    excess = max(null.chi_square.sum() - counts, 0.0)
+    return counts + doubt(counts, rules.decision.noise_uncertainty) + times * rules.decision.unexplained * excess
 
 
 def left_by(problem, budget, null, fit, rules):

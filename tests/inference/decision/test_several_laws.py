@@ -44,3 +44,10 @@ def test_values_may_vary_by_the_errors_of_all_laws():
     rules = several_laws.allowing(Settings(), 3).rules.decision
     assert rules.varies_by == pytest.approx(3 * DEFAULTS.decision.law_error)
     assert several_laws.allowing(Settings(), 1).rules.decision.varies_by == DEFAULTS.decision.varies_by
+
+
+def test_a_fit_that_may_still_leave_little_enough_is_not_given_up():
+    whole, noise, both, (null, one, two) = fits({"effect_1_0": 3.0, "effect_2_0": 2.0})
+    rules, left = DEFAULTS, [several_laws.left_by(whole, noise, null, each, DEFAULTS)[0] for each in (one, two)]
+    assert left[0] > rules.decision.unexplained > left[1]
+    assert two.objective < several_laws.hoped(null, rules) < one.objective
