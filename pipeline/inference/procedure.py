@@ -191,20 +191,22 @@ class Asked:
         """Fit of the laws that are taken as known and of a Hypothesis ``last``, from latent values ``start`` of all, or
         None; ``null``: Fit of the nominal model alone. Given up where it would leave too much. A tone needs what the
         others leave to begin."""
+        enough = several_laws.hoped(null, self.settings.rules)
         if tone_starts.tone_of(last):
-            return next((r.fit for r in self.begun_together(null, start, last)[1].values()), None)
+            return next((r.fit for r in self.begun_together(null, start, last, enough)[1].values()), None)
         begin = linearised(self.problem, null.noises, self.problem.nominal.joined(last), start, null.runs)
-        return continued(self.problem, begin, enough=several_laws.hoped(null, self.settings.rules), patient=False)
+        return continued(self.problem, begin, enough=enough, patient=False)
 
-    def begun_together(self, null, start, last):
+    def begun_together(self, null, start, last, enough=np.inf):
         """(Calibration of the laws that are taken as known, {index: Refitted} of one more, the Hypothesis ``last``)
-        from latent values ``start`` of all; ``null``: Fit of the nominal model alone."""
+        from latent values ``start`` of all; ``null``: Fit of the nominal model alone. Given up where it cannot come
+        down to an objective ``enough``."""
         problem, rules, size = self.problem, self.settings.rules, len(last.parameters)
         begin = linearised(problem, null.noises, problem.nominal, start[:-size], null.runs)
         calibration = recalibrate(problem, self.budget, rules.calibration, continued(problem, begin, patient=False))
         refitter = Refitter.about(calibration, self.catalogue, self.settings, self.fan_out)
         return calibration, refitter.best_begun({}, {self.catalogue.index(last): [
-            start, *tone_starts.starts(problem, calibration.null, last)]})
+            start, *tone_starts.starts(problem, calibration.null, last)]}, enough)
 
     def named_together(self, single, calibration, results, known):
         """(Diagnosis that names one more law beside those ``known`` (Hypotheses) or None, why there is none).
