@@ -13,17 +13,18 @@ STAGES := surface effects micro_friction friction_map structure reduced_model co
 
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready
+TESTED := .venv/.tested
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench brake_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
 	@grep -hE '^[a-z_-]+:.*##' Makefile | sed -E 's/:.*## */ /' | awk '{name = $$1; sub(/^[^ ]* */, ""); printf "  %-15s %s\n", name, $$0}'
 	@echo "  one stage:   $(STAGES)"
 
-setup: $(READY)  ## create the virtual environment .venv from the pinned lock, wheels only
+setup: $(READY)  ## create the virtual environment .venv from the pinned lock of users, wheels only
 
 $(READY): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -33,27 +34,31 @@ $(READY): requirements.lock pyproject.toml
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
 
+$(TESTED): $(READY) requirements-dev.lock
+	$(BIN)/python -m pip install --quiet --require-hashes --only-binary :all: -r requirements-dev.lock
+	@touch $@
+
 run: $(READY)    ## run the chain of CASE; up-to-date stages are skipped
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
-test: $(READY)   ## all tests except slow ones; lists skipped tests with reasons
+test: $(TESTED)   ## all tests except slow ones; lists skipped tests with reasons
 	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
 
-coverage: $(READY)  ## the same tests, with line coverage of pipeline/ and stages/
+coverage: $(TESTED)  ## the same tests, with line coverage of pipeline/ and stages/
 	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile --cov=pipeline --cov=stages --cov-report=term:skip-covered $(ARGS) $(TESTS)
 
-test-kernels: $(READY)  ## tests sensitive to rounding, with the kernels of other processors (KERNELS of OpenBLAS, MKL, numba)
+test-kernels: $(TESTED)  ## tests sensitive to rounding, with the kernels of other processors (KERNELS of OpenBLAS, MKL, numba)
 	@for kernel in $(KERNELS); do echo "OpenBLAS kernel $$kernel"; \
 		OPENBLAS_CORETYPE=$$kernel MKL_ENABLE_INSTRUCTIONS=SSE4_2 NUMBA_CPU_NAME=generic \
 		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
 
-test-slow: $(READY)  ## slow tests: full cases, kill and resume in every stage
+test-slow: $(TESTED)  ## slow tests: full cases, kill and resume in every stage
 	$(BIN)/python -m pytest -q -m "slow and not study" -n auto --dist worksteal $(ARGS) $(TESTS)
 
-test-study: $(READY)  ## long diagnoses: every kind of case, samples of the studies
+test-study: $(TESTED)  ## long diagnoses: every kind of case, samples of the studies
 	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
 
-bench: $(READY)  ## benchmarks: wall and CPU seconds of kernels, other codes, stages, diagnoses; ARGS="--compare COMMIT" adds an earlier run
+bench: $(TESTED)  ## benchmarks: wall and CPU seconds of kernels, other codes, stages, diagnoses; ARGS="--compare COMMIT" adds an earlier run
 	$(BIN)/python -m tests.benchmarks $(ARGS)
 
 trial: $(READY)  ## open practice trial: make, solve and score, up to half an hour on two cores; resumes
@@ -76,37 +81,37 @@ trial_again: $(READY)  ## remake the published trial SEALED as an open one; solv
 	$(BIN)/brakechain trial score $(AGAIN)
 	$(BIN)/brakechain trial show $(AGAIN)
 
-study_diagnosis: $(READY)  ## identification rates for hidden physics on forced rigs; resumes case by case
+study_diagnosis: $(TESTED)  ## identification rates for hidden physics on forced rigs; resumes case by case
 	$(BIN)/python -m tests.studies.forced $(ARGS)
 
-study_squeal: $(READY)  ## identification rates on the practice pin-on-disc bench; resumes case by case
+study_squeal: $(TESTED)  ## identification rates on the practice pin-on-disc bench; resumes case by case
 	$(BIN)/python -m tests.studies.self_excited $(ARGS)
 
-study_brake: $(READY)  ## identification rates on the practice disc brake; resumes case by case
+study_brake: $(TESTED)  ## identification rates on the practice disc brake; resumes case by case
 	$(BIN)/python -m tests.studies.brake $(ARGS)
 
-study_lines: $(READY)  ## whether a disc flexible in the loop is named from lines heard on concealed benches; resumes case by case
+study_lines: $(TESTED)  ## whether a disc flexible in the loop is named from lines heard on concealed benches; resumes case by case
 	$(BIN)/python -m tests.studies.lines $(ARGS)
 
-study_knock_out: $(READY)  ## whether physics that the catalogue lacks is taken for a known law; resumes case by case
+study_knock_out: $(TESTED)  ## whether physics that the catalogue lacks is taken for a known law; resumes case by case
 	$(BIN)/python -m tests.studies.knock_out $(ARGS)
 
-study_sharp: $(READY)  ## whether friction that sticks, play and stops are named from event-driven recordings; resumes case by case
+study_sharp: $(TESTED)  ## whether friction that sticks, play and stops are named from event-driven recordings; resumes case by case
 	$(BIN)/python -m tests.studies.sharp $(ARGS)
 
-study_micro: $(READY)  ## how far friction, real area and wear hang on grid, patch, layers, cycles and stroke
+study_micro: $(TESTED)  ## how far friction, real area and wear hang on grid, patch, layers, cycles and stroke
 	$(BIN)/python -m tests.studies.micro_convergence $(ARGS)
 
-paper_micro: $(READY)  ## friction, real area and wear of the 2021 paper beside ours, over several pairs of surfaces
+paper_micro: $(TESTED)  ## friction, real area and wear of the 2021 paper beside ours, over several pairs of surfaces
 	$(BIN)/python -m tests.studies.paper_micro $(ARGS)
 
-study_several: $(READY)  ## joints with one to three laws at once, by simulation or (--equation) the equation of motion
+study_several: $(TESTED)  ## joints with one to three laws at once, by simulation or (--equation) the equation of motion
 	$(BIN)/python -m tests.studies.several $(ARGS)
 
-study_disturbed: $(READY)  ## false alarms where noise, clocks, samples and joints are not as assumed; resumes case by case
+study_disturbed: $(TESTED)  ## false alarms where noise, clocks, samples and joints are not as assumed; resumes case by case
 	$(BIN)/python -m tests.studies.disturbed $(ARGS)
 
-study_second_family: $(READY)  ## identification rates on rigs that truly switch, the set of SEED; resumes case by case
+study_second_family: $(TESTED)  ## identification rates on rigs that truly switch, the set of SEED; resumes case by case
 	$(BIN)/python -m tests.studies.second_family --seed $(SEED) $(ARGS)
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
@@ -118,8 +123,11 @@ brake_bench: $(READY)  ## write the practice recordings of configs/disc_brake_be
 worn_bench: $(READY)  ## write the practice recordings of configs/worn_pad.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.worn
 
-lint: $(READY)   ## check code style
+lint: $(TESTED)   ## check code style
 	$(BIN)/python -m ruff check .
+
+licences: $(TESTED)  ## the licence of every package, and which of the two locks asks for it
+	$(BIN)/python -m tests.licences
 
 clean:           ## delete the products of CASE
 	rm -rf data/runs/$(CASE)

@@ -1,12 +1,14 @@
-"""The environment: compiled code lies in a folder of the user; the lock installs with later releases about."""
+"""The environment: compiled code lies in a folder of the user; the locks of users and developers, their licences."""
 
 import re
+import tomllib
 from importlib.metadata import distributions
 from pathlib import Path
 
 from packaging.requirements import Requirement
 
 from pipeline.environment import CACHE, LOCATORS, use_compiled_cache
+from tests import licences
 
 
 def test_compiled_code_gets_a_folder_and_a_locator(tmp_path):
@@ -28,10 +30,40 @@ def test_a_folder_of_the_user_is_kept_and_one_that_cannot_be_made_is_left_out(tm
 
 def test_the_lock_pins_extras_that_a_distribution_requires():
     """To pip, 'name[extra]' is not the pinned 'name': it would take a later release, which has no hash."""
-    lock = (Path(__file__).parents[1] / "requirements.lock").read_text()
+    lock = (licences.ROOT / "requirements-dev.lock").read_text()
     pinned = {line.name: line.extras for line in map(Requirement, re.findall(r"^([\w.\[\],-]+==[^ ;]+)", lock, re.M))}
     assert pinned.keys() > {"numpy", "coverage"}
     installed = [one for one in distributions() if one.name.lower() in pinned]
     for one in (Requirement(text) for each in installed for text in each.requires or ()):
         if one.marker is None or one.marker.evaluate({"extra": ""}):
             assert one.extras <= pinned.get(one.name, one.extras), one
+
+
+def pins(name):
+    """{package with its version: text of its hashes} of a lock file."""
+    text = (licences.ROOT / name).read_text()
+    return {pin: set(re.findall(r"sha256:\w{64}", hashes))
+            for pin, hashes in re.findall(r"^([\w.\[\],-]+==[^ ;]+)[^\n]*\n((?: {4}--hash[^\n]*\n)+)", text, re.M)}
+
+
+def test_what_users_install_is_a_part_of_what_developers_do():
+    users, developers = pins("requirements.lock"), pins("requirements-dev.lock")
+    assert len(users) > 50 and users.items() < developers.items()
+
+
+def test_users_install_all_that_the_program_needs_and_nothing_for_tests():
+    project = tomllib.loads((licences.ROOT / "pyproject.toml").read_text())["project"]
+    extras = {name: {Requirement(text).name.lower() for text in texts}
+              for name, texts in project["optional-dependencies"].items()}
+    users = licences.locked("requirements.lock")
+    needed = {Requirement(text).name.lower() for text in project["dependencies"]} | extras["bench"] | extras["build"]
+    assert needed <= users and not users & (extras["test"] - needed)
+
+
+def test_no_package_of_users_is_under_a_strong_copyleft_licence():
+    """'make licences' prints them all."""
+    users = licences.locked("requirements.lock")
+    kinds = {package.name: package.kind for package in licences.installed()}
+    assert kinds["numpy"] == "permissive" and kinds["nptdms"] == "weak copyleft"
+    assert {name for name, kind in kinds.items() if kind == "strong copyleft"} <= {"tamaas"}
+    assert not [name for name, kind in kinds.items() if name in users and kind in ("unknown", "strong copyleft")]
