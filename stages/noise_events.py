@@ -9,7 +9,7 @@ import numpy as np
 
 from pipeline.case_models.named_modes import named_modes
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
-from pipeline.contract.mapped import Slices, blocks
+from pipeline.contract.mapped import Slices
 from pipeline.physics.signals.frames import frames
 from pipeline.physics.signals.listening import LONGEST, RATE, excerpt
 from pipeline.physics.signals.noise_events import Broadband, Tonal, tonal
@@ -17,6 +17,7 @@ from pipeline.physics.signals.occurrence import Conditions, even_edges, occurren
 from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, Loudest
 from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
+from pipeline.products.recording import CONDITIONS
 from pipeline.products.sound import OWN_TONES
 from pipeline.recordings.samples import with_gaps
 from pipeline.views.pages.sound_file import sound_files
@@ -57,11 +58,6 @@ class Settings(Section):
 _STILL = 1e-6
 #: what is heard before and after an event [s]
 _BEFORE = 0.2
-#: largest pressure in Pa that a microphone hears (160 dB); a line pressure is more
-_SOUND = 2e3
-#: conditions of an event: name, what channels measure it, and their unit
-_CONDITIONS = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "speed"), "rad/s"),
-              "temperature": (("temperature",), "K")}
 #: distance of the instants that are counted in the maps over conditions [s], and where their bins begin
 _INSTANT, _ORIGIN = 0.05, {"temperature": 273.15}
 #: samples of a condition are averaged to this rate [Hz], so many of them at once
@@ -81,7 +77,7 @@ def _table(product):
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(("run", "channel", "kind", "frequency / Hz", "lowest / Hz", "highest / Hz", "level / dB",
                      "start / s", "duration / s", "order",
-                     *(f"{name} / {_CONDITIONS[name][1]}" for name in product.condition),
+                     *(f"{name} / {CONDITIONS[name][1]}" for name in product.condition),
                      *(("mode", "mode / Hz") if len(product.mode_name) else ())))
     for k, record in enumerate(product.event_record):
         writer.writerow((product.record_run[record], product.record_channel[record], product.event_kind[k],
@@ -138,19 +134,9 @@ def _kind(name, channel, settings):
         return ""
     if asked and unit not in ("Pa", "m/s^2"):
         raise ConfigError("noise_events.channels", "channels of sound pressure or acceleration", f"{name} in {unit}")
-    if str(channel.measures) == "sound_pressure" or (unit == "Pa" and (asked or _heard(channel))):
+    if str(channel.measures) == "sound_pressure" or (unit == "Pa" and (asked or channel.heard())):
         return "sound"
     return "vibration" if unit == "m/s^2" else ""
-
-
-def _heard(channel):
-    """Whether a pressure is that of sound: about 0, and of its size but for one sample in a thousand."""
-    if str(channel.measures) not in ("pressure", "value"):
-        return False
-    parts = np.array([(np.sum(x, dtype=float), np.sum(np.square(x, dtype=float)), np.sum(np.abs(x) >= _SOUND))
-                      for x in blocks(channel.samples)])
-    mean, square, large = parts.sum(axis=0) / len(channel.samples)
-    return bool(large <= 1e-3 and mean**2 <= square - mean**2)
 
 
 def _searched(task, settings):
@@ -225,9 +211,9 @@ def _product(kept, recording, modes, settings):
     rows = [(k, event) for k, (_, (events, *_)) in enumerate(kept) for event in events]
     begins = [result[4] for _, result in kept]
     conditions = {name: _conditions(recording.runs[name]) for (name, *_), _ in kept}
-    told = [[conditions[kept[k][0][0]].mean(name, begins[k] + event.start, event.duration) for name in _CONDITIONS]
+    told = [[conditions[kept[k][0][0]].mean(name, begins[k] + event.start, event.duration) for name in CONDITIONS]
             for k, event in rows]
-    known = np.array([[int(value is not None) for value in row] for row in told], int).reshape(-1, len(_CONDITIONS))
+    known = np.array([[int(value is not None) for value in row] for row in told], int).reshape(-1, len(CONDITIONS))
     values = np.array([[value or 0.0 for value in row] for row in told], float).reshape(known.shape)
     columns = {name: [getattr(event, name) for _, event in rows] for name in _FIELDS}
     columns["start"] = [begins[k] + event.start for k, event in rows]
@@ -237,7 +223,7 @@ def _product(kept, recording, modes, settings):
     return NoiseEvents(
         threshold=settings.threshold, band=[settings.lowest_frequency, settings.highest_frequency],
         record_run=[name for (name, *_), _ in kept], record_channel=[key for (_, key, *_), _ in kept],
-        record_kind=[kind for (*_, kind), _ in kept], condition=list(_CONDITIONS),
+        record_kind=[kind for (*_, kind), _ in kept], condition=list(CONDITIONS),
         record_duration=[len(channel.samples) / float(channel.rate) for (_, _, channel, _), _ in kept],
         record_peak=[result[1][0] for _, result in kept], record_peak_frequency=[result[1][1] for _, result in kept],
         record_background=[result[2] for _, result in kept],
@@ -266,11 +252,9 @@ def _listen(kept):
 
 def _conditions(run):
     """Conditions of a Run: by its channels, else as it states them."""
-    measured = {name: [(*_averaged(c), float(c.begin)) for c in run.channels.values()
-                       if str(c.measures) in wanted and str(c.unit) == unit
-                       and not (name == "pressure" and _heard(c))] for name, (wanted, unit) in _CONDITIONS.items()}
+    measured = {name: [(*_averaged(c), float(c.begin)) for c in run.telling(name).values()] for name in CONDITIONS}
     return Conditions(measured, {name: (run.conditions[name].time, run.conditions[name].value)
-                                 for name, (_, unit) in _CONDITIONS.items()
+                                 for name, (_, unit) in CONDITIONS.items()
                                  if name in run.conditions and str(run.conditions[name].unit) == unit})
 
 
@@ -295,7 +279,7 @@ def _maps(kept, conditions, bins):
     """{first.second: OccurrenceMap} of the pairs of conditions that are known together."""
     courses = {name: _course(name, kept, of) for name, of in conditions.items()}
     maps = {}
-    for first, second in combinations(_CONDITIONS, 2):
+    for first, second in combinations(CONDITIONS, 2):
         both = [(course[first], course[second], course["level"]) for course in courses.values()
                 if np.isfinite(course[first] + course[second]).any()]
         if not both:
@@ -322,7 +306,7 @@ def _course(run, kept, conditions):
     ends = [begin + len(channel.samples) / float(channel.rate) for channel, _, begin in records]
     first = min((begin for *_, begin in records), default=0.0)
     time = first + _INSTANT * (np.arange(int((max(ends, default=0.0) - first) / _INSTANT)) + 0.5)
-    course = {name: conditions.at(name, time) for name in _CONDITIONS} | {"level": np.full(len(time), -np.inf)}
+    course = {name: conditions.at(name, time) for name in CONDITIONS} | {"level": np.full(len(time), -np.inf)}
     for _, events, begin in records:
         for event in events:
             if event.kind == "squeal":

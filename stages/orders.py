@@ -103,8 +103,7 @@ def _shaft(run, settings):
         if unit not in _TURNING and not settings.pulses:
             raise ConfigError("orders.shaft", "a channel in rpm, rad/s or Hz", f"{settings.shaft} in {unit}")
         return settings.shaft
-    return None if settings.shaft else next((name for name, channel in run.channels.items() if str(
-        channel.measures) in ("angular_velocity", "speed") and str(channel.unit) == "rad/s"), None)
+    return None if settings.shaft else next(iter(run.telling("speed")), None)
 
 
 def _turning(channel, pulses):

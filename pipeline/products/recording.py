@@ -1,6 +1,15 @@
 """Recordings: measured data, run by run, and the modes of a measured structure."""
 
+import numpy as np
+
 from pipeline.contract import Array, count, parts, product, quantity, text
+from pipeline.contract.mapped import blocks
+
+#: conditions that channels tell: what these measure, and its unit
+CONDITIONS = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "speed"), "rad/s"),
+              "temperature": (("temperature",), "K")}
+#: largest pressure of sound, Pa, but for one sample in so many
+_SOUND, _LOUDER = 2e3, 1000
 
 
 @product(version=1)
@@ -17,6 +26,15 @@ class Channel:
     position: Array = quantity("m", "xyz", "position of the point; size 0 if not given")
     direction: Array = quantity("1", "axis", "direction, unit vector; size 0 if not given")
     role: Array = text("", "response or excitation")
+
+    def heard(self):
+        """Whether a pressure is that of sound: about 0, and of its size but for one sample in a thousand."""
+        if str(self.measures) not in ("pressure", "value"):
+            return False
+        moments = np.array([(np.sum(x, dtype=float), np.sum(np.square(x, dtype=float)), np.sum(np.abs(x) >= _SOUND))
+                            for x in blocks(self.samples)])
+        mean, square, large = moments.sum(axis=0) / len(self.samples)
+        return bool(large * _LOUDER <= 1 and mean**2 <= square - mean**2)
 
 
 @product(version=1)
@@ -102,6 +120,13 @@ class Run:
     lines: dict[str, Lines] = parts("published peak lists by name", empty=True)
     topography: dict[str, Topography] = parts("height maps by name", empty=True)
     friction: dict[str, MeasuredFriction] = parts("measured friction by name", empty=True)
+
+    def telling(self, condition, unit=None):
+        """{name: Channel} of those that tell one of CONDITIONS, in its ``unit`` if not another; no pressure of sound.
+        """
+        measures, usual = CONDITIONS[condition]
+        return {name: channel for name, channel in self.channels.items() if str(channel.unit) == (unit or usual)
+                and str(channel.measures) in measures and not (condition == "pressure" and channel.heard())}
 
 
 @product(version=2)

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.case_models.noise_matrix.schedule import DRAG, STOP
+from pipeline.products.recording import CONDITIONS
 
-#: what channels measure of a condition, and its unit; a speed in m/s is that of the vehicle
-_MEASURES = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "speed"), "rad/s"),
-             "temperature": (("temperature",), "K")}
-_VEHICLE = ("speed",), "m/s"
-#: a run is braked where its pressure is above this share of its largest; median in Pa below which a pressure is sound
-_BRAKED, _SOUND = 0.5, 2e3
+#: unit of a speed that is that of the vehicle
+_VEHICLE = "m/s"
+#: a run is braked where its pressure is above this share of its largest
+_BRAKED = 0.5
 #: share by which the speed of a drag may vary
 _STEADY = 0.2
 #: most samples of a channel that are read
@@ -52,16 +51,14 @@ def _course(run, radius):
 
     The speed is that of the disc, rad/s, on whose wheel the ``radius`` m belongs to a speed of the vehicle.
     """
-    course = {name: _samples(run, name, *of) for name, of in _MEASURES.items()}
-    vehicle = _samples(run, "speed", *_VEHICLE) if course["speed"] is None else None
+    course = {name: _samples(run, name, unit) for name, (_, unit) in CONDITIONS.items()}
+    vehicle = _samples(run, "speed", _VEHICLE) if course["speed"] is None else None
     return course if vehicle is None else {**course, "speed": vehicle / radius}
 
 
-def _samples(run, name, measures, unit):
-    above = _SOUND if name == "pressure" else 0.0
-    read = [_read(channel) for channel in run.channels.values() if str(channel.unit) == unit
-            and str(channel.measures) in measures]
-    read = [samples for samples in read if len(samples) and np.median(abs(samples)) > above]
+def _samples(run, name, unit):
+    read = [_read(channel) for channel in run.telling(name, unit).values()]
+    read = [samples for samples in read if len(samples) and np.median(abs(samples)) > 0]
     if len(read) == 1:
         return read[0]
     stated = run.conditions.get(name)
@@ -79,7 +76,7 @@ def _read(channel):
 
 def _nearest(course, conditions, settings):
     """(row of the nearest of the ``conditions``, "") or (-1, why there is none)."""
-    pressure, speed, temperature = (course[name] for name in _MEASURES)
+    pressure, speed, temperature = (course[name] for name in CONDITIONS)
     if pressure is None or speed is None:
         return -1, f"its {'pressure' if pressure is None else 'speed'} is neither measured nor stated"
     line = float(np.median(pressure[pressure >= _BRAKED * pressure.max()]))

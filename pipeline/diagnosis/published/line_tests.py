@@ -16,9 +16,8 @@ from pipeline.inference.decision.line_evidence import Heard
 CYCLE, CONSTANT = "cycle", "constant load"
 #: pressures of runs are those of the model within this share
 _EQUAL = 0.01
-#: what channels measure of a condition; median of a pressure in Pa below which it is sound; share by which a condition
-#: that holds over a run may vary
-_MEASURES, _SOUND, _STEADY = {"pressure": ("pressure",), "speed": ("angular_velocity", "speed")}, 2e3, 0.2
+#: share by which a condition that holds over a run may vary
+_STEADY = 0.2
 
 
 @dataclass(frozen=True)
@@ -161,9 +160,7 @@ def _condition(recording, run, name, unit):
 
 def _measured(run, name, unit):
     """Samples of the one channel of a run that measures a condition, or None."""
-    above = _SOUND if name == "pressure" else 0.0
-    found = [channel.samples for channel in run.channels.values() if str(channel.unit) == unit
-             and str(channel.measures) in _MEASURES[name] and np.median(channel.samples) > above]
+    found = [channel.samples for channel in run.telling(name, unit).values() if np.median(channel.samples) > 0]
     return found[0] if len(found) == 1 else None
 
 
