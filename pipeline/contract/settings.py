@@ -246,6 +246,13 @@ def leaves(section, prefix=""):
             yield key, value, _unit(info), info.description or ""
 
 
+def declared(cls, steps):
+    """(default as declared, meaning, SI unit or "") of the setting at ``steps``, field names, of section ``cls``."""
+    options = _within(cls, steps[:-1])
+    info = next(o.model_fields[steps[-1]] for o in options if steps[-1] in o.model_fields)
+    return info.default, info.description or "", _unit(info)
+
+
 def _items(value):
     return value.values() if isinstance(value, dict) else value
 
