@@ -10,6 +10,8 @@ CHAINS = {
                    "complex_modes", "multibody", "response", "squeal", "comparison", "report"),
     "brake_squeal": ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model",
                      "complex_modes", "convergence", "limit_cycle", "probability", "comparison", "report"),
+    "own_brake": ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model",
+                  "complex_modes", "convergence", "limit_cycle", "probability", "report"),
     "pin_on_disc": ("surface", "interface_law", "friction_descriptions", "pin_on_disc", "reduced_model",
                     "effects", "complex_modes", "transient", "lock_in", "squeal", "comparison", "report"),
     "lumped": ("lumped", "reduced_model", "effects", "complex_modes", "transient", "comparison", "report"),

@@ -32,8 +32,7 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     wear was applied to both surfaces in {cycles} cycles. The friction coefficient is total shear force over total
     normal force, with the real area corrected for its perimeter (Yastrebov et al. 2017), averaged over one pass of the
     slider, {realisations} relative positions of the patches and all pairs of surfaces. Speed enters through a rate
-    term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Asperity moduli, third-body factor and
-    wear coefficients with origin "tuned" were fitted to the facts named in their source.
+    term ({rate_coefficient}) and thermal softening ({softening}) of the limit.
     Effects at the asperities modify wear and shear.
     """
     for name in ("pressures", "disc_speeds", "refinement"):

@@ -11,6 +11,7 @@ import stages
 from pipeline import __version__
 from pipeline.cli.export import export
 from pipeline.cli.facts import facts
+from pipeline.cli.new_case import new
 from pipeline.cli.options import options
 from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
@@ -243,6 +244,7 @@ def data_format():
 
 data.add_command(export)
 cli.add_command(facts)
+cli.add_command(new)
 cli.add_command(trial)
 
 

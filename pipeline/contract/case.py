@@ -144,14 +144,15 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
 def _read(path, chains, readers=()):
     """The document at ``path`` laid over the one that its key ``based_on`` names, and the folders of both.
 
-    Sections of stages that the chain of this case does not have are not inherited.
+    Sections of stages that the chain of this case does not have are not inherited. The heading of a section with
+    nothing under it says nothing; elsewhere null takes away what the base states.
     """
     document = documents.read_yaml(path)
     if not isinstance(document, dict):
         raise ConfigError(path, "a mapping of sections", repr(document)[:60])
     document, base = settings.written_in(path.parent, document), document.get("based_on")
     if base is None:
-        return document, (path.parent,)
+        return {key: _laid_over(None, value) for key, value in document.items()}, (path.parent,)
     file = path.parent / str(base)
     if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
         raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
@@ -159,16 +160,23 @@ def _read(path, chains, readers=()):
     base_chain, chain = (str(name) for name in (inherited.get("chain"), document.get("chain", inherited.get("chain"))))
     foreign = set(chains.get(base_chain, ())) - set(chains.get(chain, ()))
     inherited = {key: value for key, value in inherited.items() if key not in foreign}
-    return _laid_over(inherited, document), (path.parent, *folders)
+    said = {key: value for key, value in document.items() if value is not None or not inherited.get(key)}
+    return _laid_over(inherited, said), (path.parent, *folders)
 
 
 def _laid_over(base, overlay):
-    """``overlay`` where it has values, ``base`` elsewhere; a mapping of another ``kind`` replaces the whole mapping."""
-    if overlay is None and isinstance(base, dict) and not settings.annotated(base):
-        return base
-    plain = all(isinstance(d, dict) and not settings.annotated(d) for d in (base, overlay))
-    if not plain or overlay.get("kind", base.get("kind")) != base.get("kind"):
+    """``overlay`` where it has values, ``base`` elsewhere.
+
+    Mappings with keys are laid over each other, key by key. All else replaces what the base has: values, lists, {}, []
+    and null, a mapping of another ``kind``, and one that says ``based_on: null`` of itself.
+    """
+    if not isinstance(overlay, dict):
         return overlay
+    alone = overlay.get("based_on", "") is None
+    overlay = {key: value for key, value in overlay.items() if not (alone and key == "based_on")}
+    plain = isinstance(base, dict) and not any(map(settings.annotated, (base, overlay)))
+    if alone or not plain or not overlay or overlay.get("kind", base.get("kind")) != base.get("kind"):
+        base = {}
     return {**base, **{key: _laid_over(base.get(key), value) for key, value in overlay.items()}}
 
 

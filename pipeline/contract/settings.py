@@ -13,7 +13,8 @@ import os
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Union, get_args
+from types import UnionType
+from typing import Annotated, Union, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -24,6 +25,7 @@ from pydantic import (
     ValidationInfo,
     WithJsonSchema,
     create_model,
+    model_validator,
 )
 
 from pipeline.contract.errors import BrakechainError, ConfigError
@@ -39,6 +41,33 @@ class Section(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False,
                               defer_build=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _cleared(cls, values):
+        """Without lists and mappings that are null but cannot be none: their defaults hold."""
+        if not isinstance(values, dict):
+            return values
+        return {key: value for key, value in values.items()
+                if value is not None or not _holds_many(cls.model_fields.get(key))}
+
+
+def _holds_many(info):
+    """Whether a field is a section, list or mapping, and cannot be none."""
+    options = _options(info.annotation) if info else []
+    return type(None) not in options and any(get_origin(o) in (tuple, dict) or _is_section(o) for o in options)
+
+
+def _options(annotation):
+    """The types that an annotation allows, without what annotates them."""
+    if get_origin(annotation) is Annotated:
+        return _options(get_args(annotation)[0])
+    unions = (Union, UnionType)
+    return [o for a in get_args(annotation) for o in _options(a)] if get_origin(annotation) in unions else [annotation]
+
+
+def _is_section(annotation):
+    return isinstance(annotation, type) and issubclass(annotation, Section)
 
 
 def section(name, meaning, fields):
@@ -215,6 +244,13 @@ def leaves(section, prefix=""):
                 yield from leaves(item, f"{key}.{index}.")
         else:
             yield key, value, _unit(info), info.description or ""
+
+
+def declared(cls, steps):
+    """(default as declared, meaning, SI unit or "") of the setting at ``steps``, field names, of section ``cls``."""
+    options = _within(cls, steps[:-1])
+    info = next(o.model_fields[steps[-1]] for o in options if steps[-1] in o.model_fields)
+    return info.default, info.description or "", _unit(info)
 
 
 def _items(value):

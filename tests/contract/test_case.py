@@ -178,7 +178,30 @@ def test_another_kind_replaces_the_whole_mapping():
     assert case._laid_over(base, {"pad": {"kind": "scan", "file": "a"}})["pad"] == {"kind": "scan", "file": "a"}
     assert case._laid_over(base, {"pad": {"seed": 4}})["pad"] == {"kind": "generated", "seed": 4}
     assert case._laid_over(base, {"n": 4})["n"] == 4
-    assert case._laid_over(base, {"pad": None})["pad"] == base["pad"], "an empty section adds nothing"
+
+
+@pytest.mark.parametrize("written", ["{}", "null", "{based_on: null}"])
+def test_mappings_and_lists_of_a_base_are_cleared(config, written):
+    """What is written replaces; only a mapping with keys is laid over, unless it says that it is based on nothing."""
+    base, other = config.with_name("base.yaml"), config.with_name("other.yaml")
+    base.write_text("chain: toy\nsource: {tuned: {a: x, b: y}, list: [1, 2], n: {value: 2, origin: stated}}\n")
+
+    def read(source):
+        other.write_text(f"based_on: base.yaml\nsource: {{{source}}}\n")
+        return case._read(other, {"toy": ("source",)})[0]["source"]
+
+    assert not read(f"tuned: {written}")["tuned"] and read(f"tuned: {written}")["list"] == [1, 2]
+    assert read("tuned: {a: z}")["tuned"] == {"a": "z", "b": "y"}
+    assert read("tuned: {based_on: null, c: z}")["tuned"] == {"c": "z"}
+    assert read("list: []")["list"] == [] and read("list: null")["list"] is None
+    assert read("n: {value: 3}")["n"] == {"value": 3}, "an annotated value is replaced with its origin"
+    other.write_text("based_on: base.yaml\nsource: {}\n")
+    assert case._read(other, {"toy": ("source",)})[0]["source"] == {}, "{} clears a whole section"
+
+
+def test_a_mapping_based_on_nothing_needs_no_base(config):
+    config.write_text("chain: toy\nsource: {tuned: {based_on: null, c: z}}\n")
+    assert case._read(config, {})[0]["source"] == {"tuned": {"c": "z"}}
 
 
 def test_a_circle_of_cases_is_refused(tmp_path):

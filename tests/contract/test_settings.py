@@ -90,3 +90,26 @@ def test_a_document_of_a_folder_is_named_and_others_are_files(tmp_path):
                         (3, "expected one, two or a YAML file")):
         with pytest.raises(ConfigError, match=said):
             fill(Named, {"which": wrong}, "c")
+
+
+class Inner(Section):
+    size: float = option(2.0, "size")
+
+
+class Holding(Section):
+    inner: Inner = option(Inner(), "a section")
+    either: Inner | None = option(Inner(), "a section or none")
+    many: tuple[float, ...] = option((1.0, 2.0), "a list")
+    named: dict[str, str] = option({"a": "b"}, "a mapping")
+    speeds: Quantities("m/s") = option(("1 m/s",), "quantities")
+    number: float = option(1.0, "a number")
+
+
+def test_null_stands_for_the_default_of_what_holds_many():
+    """Of a section, list or mapping; where none is a value of its own it stays none, and a number needs one."""
+    nothing = dict.fromkeys(("inner", "either", "many", "named", "speeds"))
+    filled = fill(Holding, nothing, "x")
+    assert filled == Holding(either=None)
+    assert fill(Holding, {"many": [], "named": {}}, "x").many == ()
+    with pytest.raises(ConfigError, match="number"):
+        fill(Holding, {"number": None}, "x")

@@ -55,7 +55,7 @@ class Lining(Solid):
     """Pad at the scale of its roughness; modulus and wear are tuned to the published contact area and approach."""
 
     youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "Young's modulus of the pad asperities (micrometre"
-                                                  " scale), an effective value tuned to the real contact area; not the"
+                                                  " scale), effective, as the real contact area asks for; not the"
                                                   " bulk modulus structure.pad.lining_young_normal")
     poisson_ratio: float = option(0.25, "Poisson ratio", ge=0, lt=0.5)
     conductivity: Quantity("W/m/K", gt=0) = option("1 W/m/K", "thermal conductivity")

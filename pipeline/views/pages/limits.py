@@ -35,8 +35,8 @@ LIMITS = (
      " do not warm up, and no material property depends on temperature or moisture."),
     (("micro_friction",), _bulk),
     (("micro_friction",), _grid),
-    (("structure",), "The real geometry: the paper contains no drawing. Shapes and stiffnesses are inferred or tuned,"
-     " as stated by their origin; bolts, bushings, shims, hydraulics, suspension and test bench are springs or"
+    (("structure",), "The real geometry: shapes are simplified, and values are what the settings state of their origin;"
+     " bolts, bushings, shims, hydraulics, suspension and test bench are springs or"
      " omitted."),
     (("complex_modes",), "Complex modes are linear: no limit cycle, no amplitude, no dependence on the angular position"
      " of the disc."),

@@ -35,6 +35,7 @@ from pipeline.views.figures.models import rupture as rupture_pictures
 from pipeline.views.pages import case_settings as case_view
 from pipeline.views.pages.limits import limits
 from pipeline.views.pages.summary import published_squeal, verdict
+from pipeline.views.pages.to_measure import statement, to_measure
 
 #: what a chapter may be given besides products: the squeal frequencies among the published facts
 _PUBLISHED = "published squeal"
@@ -102,7 +103,8 @@ def page(chapters, products, case, look):
     return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
         key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
-        stages=case_view.stages(case), methods=methods, limits=limits(products))
+        measure=to_measure(case, products), measure_note=statement(case), stages=case_view.stages(case),
+        methods=methods, limits=limits(products))
 
 
 def _key_figures(products, look):

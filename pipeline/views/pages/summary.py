@@ -236,6 +236,8 @@ def _sure(products):
     converged = "" if refined is None else f"{convergence.statement(refined)} "
     for told in filter(None, (outside_computed(products), open_balance(products.get("multibody")))):
         converged += f"{told} "
+    if products.get("comparison") is None and products.get("structure") is not None:
+        return converged.strip()        # a brake of one's own
     if comparison is None:
         return f"{converged}There is no published result to compare with."
     within = judged(comparison, "within")
@@ -254,6 +256,8 @@ def _tuned(products, tuned_settings):
     if settings and comparison is not None and not rows:
         more += ". The comparison does not state on which facts, so some of the agreement is not evidence"
     if not shown:
+        if products.get("comparison") is None and products.get("structure") is not None:
+            return ""
         return "Nothing in this case is marked as tuned."
     text = "; ".join(shown)
     return f"{text[:1].upper()}{text[1:]}{more}." if rows else f"{text}{more}."

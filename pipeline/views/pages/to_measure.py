@@ -1,0 +1,89 @@
+"""Values of a brake that nobody has stated or measured, and that decide its verdict: measure these first."""
+
+from fnmatch import fnmatchcase
+
+from pipeline.views.chapters.chapter import Table
+from pipeline.views.figures.number_format import percent, plural
+from pipeline.views.pages.case_settings import written
+
+DEFAULT, ASSUMED = "default", "assumed"
+#: settings that decide on flutter, those first that commonly matter most, and the source of scatter that they belong to
+DECIDING = (
+    ("micro_friction.third_body_factor", "friction"), ("micro_friction.disc_strength", "friction"),
+    ("complex_modes.damping_speed", "damping_speed"),
+    ("structure.joints.abutment_*stiffness", "joint_stiffness:abutment"),
+    ("structure.joints.clip_stiffness", "joint_stiffness:abutment"),
+    ("structure.joints.finger_*stiffness", "joint_stiffness:finger"),
+    ("structure.joints.shim_stiffness", "joint_stiffness:piston"),
+    ("structure.joints.piston_*stiffness", "joint_stiffness:piston"),
+    ("structure.joints.guide_pin_*stiffness", "joint_stiffness:guide_pin"),
+    ("structure.joints.seal_stiffness", "joint_stiffness:seal"),
+    ("structure.joints.mount_stiffness", "joint_stiffness:mount"),
+    ("structure.pad.lining_young_*", "lining_stiffness"), ("structure.pad.lining_shear_*", "lining_stiffness"),
+    ("surface.*.rms_height", "contact_stiffness"), ("micro_friction.pad.youngs_modulus", "contact_stiffness"),
+    ("structure.joints.*_loss_factor", "joint_loss"), ("structure.joints.loss_time", "joint_loss"),
+    ("structure.*loss_factor", "body_loss"), ("structure.*.damping_ratio", "body_loss"),
+    ("structure.disc.*radius", ""), ("structure.disc.*thickness", ""), ("structure.pad.*thickness", ""),
+    ("structure.pad.*radius", ""), ("structure.pad.angle", ""), ("structure.*.young", ""),
+    ("structure.*.backplate_young", ""), ("structure.*density", ""))
+#: rows that are shown open
+_FIRST = 10
+
+
+def to_measure(case, products):
+    """Tables of the values that decide the verdict of a brake and are defaults of the program, or assumed.
+
+    Ordered by what is known of their influence: growth rates that their scatter changes (product sensitivities), then
+    the share of the variance of the growth rate of the source that they belong to (probability), then what commonly
+    matters. Empty for systems without such values.
+    """
+    rows = _rows(case)
+    if not rows:
+        return ()
+    known = _influence(products, [row[0] for row in rows])
+    order = sorted(range(len(rows)), key=lambda k: (rows[k][3] != DEFAULT, *known[rows[k][0]][0], rows[k][5]))
+    cells = [(rows[k][0], rows[k][2], rows[k][3], known[rows[k][0]][1]) for k in order]
+    meanings = [rows[k][4] for k in order]
+    left = len(cells) - _FIRST
+    tables = ((cells[:_FIRST], meanings[:_FIRST], "Values that decide and that are not yours, first those that matter"
+               " most", False), (cells[_FIRST:], meanings[_FIRST:], f"{plural(left, 'further value')}", True))
+    return tuple(Table(("setting", "value", "origin", "what it decides"), tuple(part), title, (1,), (3,), folded,
+                       tuple(under)) for part, under, title, folded in tables if part)
+
+
+def statement(case):
+    """How many values that decide are defaults or assumed, in one sentence; '' where there are none."""
+    rows = _rows(case)
+    defaults = sum(row[3] == DEFAULT for row in rows)
+    if not rows:
+        return ""
+    return (f"{plural(defaults, 'value')} that {'decides' if defaults == 1 else 'decide'} this verdict"
+            f" {'is a default' if defaults == 1 else 'are defaults'} of the program, {len(rows) - defaults} more are"
+            " assumed: the answer is of a typical brake as far as they go.")
+
+
+def _rows(case):
+    """(name, source of scatter, value, origin, meaning, rank) of the deciding values that are default or assumed."""
+    rows = []
+    for stage, settings in case.settings.items():
+        for key, value in settings.items():
+            name = f"{stage}.{key}"
+            rank = next((k for k, (pattern, _) in enumerate(DECIDING) if fnmatchcase(name, pattern)), None)
+            origin = case.origins.get(stage, {}).get(key, {}).get("origin", DEFAULT)
+            if rank is not None and value is not None and origin in (DEFAULT, ASSUMED):
+                rows.append((name, DECIDING[rank][1], written(value, case.units.get(stage, {}).get(key, "")), origin,
+                             case.meanings.get(stage, {}).get(key, ""), rank))
+    return rows if "structure" in case.settings else []
+
+
+def _influence(products, names):
+    """{name: ((class, -size), words)}: what is known of the influence of each value, the best known first."""
+    probable, known = products.get("probability"), {}
+    shares = {} if probable is None or not len(probable.value) else dict(
+        zip(map(str, probable.source), map(float, probable.sensitivity), strict=True))
+    for name in names:
+        source = next(s for pattern, s in DECIDING if fnmatchcase(name, pattern))
+        size = shares.get(source, shares.get(source.partition(":")[0])) if source else None
+        known[name] = ((1, 0.0), "—") if size is None else (
+            (0, -max(size, 0.0)), f"{percent(max(size, 0.0), 2)} of the variance of the growth rate, with its group")
+    return known

@@ -1,0 +1,39 @@
+"""What the report lists to be measured first."""
+
+from types import SimpleNamespace
+
+from pipeline.contract.context import CaseSummary
+from pipeline.views.pages.to_measure import statement, to_measure
+
+CASE = CaseSummary(
+    settings={"structure": {"joints.finger_stiffness": 4e8, "joints.abutment_stiffness": 5e7, "disc.young": 1.2e11,
+                            "disc.angular_cells": 90, "pad.lining_loss_factor": 0.03, "disc.density": 7200.0},
+              "complex_modes": {"damping_speed": 1.0}},
+    origins={"structure": {"pad.lining_loss_factor": {"origin": "assumed"}, "disc.density": {"origin": "user"}}},
+    units={"structure": {"joints.finger_stiffness": "N/m", "joints.abutment_stiffness": "N/m", "disc.young": "Pa"},
+           "complex_modes": {"damping_speed": "m/s"}})
+
+
+def names(products):
+    return [row[0] for table in to_measure(CASE, products) for row in table.rows]
+
+
+def test_defaults_come_before_what_is_assumed_and_numerics_are_left_out():
+    assert names({}) == ["complex_modes.damping_speed", "structure.joints.abutment_stiffness",
+                         "structure.joints.finger_stiffness", "structure.disc.young",
+                         "structure.pad.lining_loss_factor"]
+    assert statement(CASE).startswith("4 values that decide this verdict are defaults of the program, 1 more")
+
+
+def test_what_is_known_of_their_influence_orders_them():
+    """A source of scatter speaks for the values of its group."""
+    probable = SimpleNamespace(value=[[1.0]], source=["joint_stiffness:finger", "damping_speed", "body_loss"],
+                               sensitivity=[0.6, 0.2, 0.9])
+    assert names({"probability": probable})[:2] == ["structure.joints.finger_stiffness", "complex_modes.damping_speed"]
+    assert names({"probability": probable})[-1] == "structure.pad.lining_loss_factor"
+    assert "60\u202f% of the variance" in to_measure(CASE, {"probability": probable})[0].rows[0][3]
+
+
+def test_other_systems_have_no_such_list():
+    other = CaseSummary(settings={"complex_modes": {"damping_speed": 1.0}})
+    assert to_measure(other, {}) == () and statement(other) == ""
