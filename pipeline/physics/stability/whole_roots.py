@@ -24,7 +24,7 @@ def whole_roots(family, factors, speed, below, smallest=1e-3):
     loss factors as imaginary stiffness. ``below`` Hz limits the modes. Errors as of these steps.
     """
     varied = family.at_speed(speed).varied(factors)
-    about, friction = _about(varied)
+    about, friction = about_sliding(varied)
     loss = varied.imaginary_stiffness()
     mass, _, stiffness = about.frictionless(gyroscopic=False, centrifugal=False)
     viscous = replace(about, damping=about.damping + equivalent_damping(loss, stiffness, mass))
@@ -53,7 +53,7 @@ def beside_whole(case, factors, speed, below):
     return moved.root[there], unstable[there], np.sum(~there & (unstable.real > _MISSED)) + edge.sum()
 
 
-def _about(varied):
+def about_sliding(varied):
     """(SlidingModel about steady sliding, FrictionState of its linearisation)."""
     if varied.has_law:
         response = closure_response(varied.model, varied.centrifugal)

@@ -1,0 +1,42 @@
+"""Derivatives of a root of (s^2 M + s C + K) x = 0 to what its matrices depend on, by left and right eigenvectors.
+
+With y^H (s^2 M + s C + K) = 0 and matrices that change by dM, dC, dK,
+
+    ds = - y^H (s^2 dM + s dC + dK) x / y^H (2 s M + C) x.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+#: inverse iterations for the left vector, and how far the matrix is evaluated beside the root, where it is regular
+_INVERSE, _BESIDE = 3, 1 + 1e-9
+
+
+@dataclass(frozen=True)
+class RootWithVectors:
+    """A ``root`` 1/s with its ``right`` and ``left`` (n,), scaled so that y^H (2 s M + C) x = 1."""
+
+    root: complex
+    right: np.ndarray
+    left: np.ndarray
+
+    def change(self, difference):
+        """ds (complex, 1/s) for the ``difference`` (dM, dC, dK) of the matrices, each (n, n)."""
+        mass, damping, stiffness = difference
+        moved = self.root**2 * (mass @ self.right) + self.root * (damping @ self.right) + stiffness @ self.right
+        return -complex(self.left.conj() @ moved)
+
+
+def with_vectors(matrices, root, right):
+    """RootWithVectors of the ``matrices`` (M, C, K) for a root and its right vector (n,)."""
+    mass, damping, stiffness = matrices
+    beside = root * _BESIDE
+    factor = scipy.linalg.lu_factor(beside**2 * mass + beside * damping + stiffness, check_finite=False)
+    slope = 2 * root * (mass @ right) + damping @ right
+    left = slope.conj()
+    for _ in range(_INVERSE):
+        left = scipy.linalg.lu_solve(factor, left, trans=2, check_finite=False)
+        left = left / np.linalg.norm(left)
+    return RootWithVectors(root, right, left / (left.conj() @ slope).conj())

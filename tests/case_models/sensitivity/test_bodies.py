@@ -1,0 +1,25 @@
+"""Values of the bodies in reduced matrices."""
+
+import numpy as np
+import pytest
+
+from pipeline.case_models.sensitivity.bodies import body_parameters
+from pipeline.case_models.sensitivity.matrices import Case
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
+from tests.stages.small_structure import small_structure
+
+
+def test_a_body_scales_with_its_modulus_and_density():
+    """Its block alone; viscous damping at a damping ratio rises with the root of both."""
+    structure = small_structure()
+    model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
+    found = {name: changed for name, *_, changed in body_parameters(model, structure)}
+    disc = np.ix_(*(np.flatnonzero(model.coordinate_body == list(model.body_name).index("disc")),) * 2)
+    for name, matrix in (("structure.disc.young", "stiffness"), ("structure.disc.density", "mass")):
+        changed = found[name](Case(model, 0, 12.0), 0.21).model
+        expected = getattr(model, matrix).copy()
+        expected[disc] *= 1.21
+        np.testing.assert_allclose(getattr(changed, matrix), expected, rtol=1e-12)
+        assert np.linalg.norm(changed.damping[disc] - 1.1 * model.damping[disc]) == pytest.approx(
+            0, abs=1e-6 * np.linalg.norm(model.damping[disc]))

@@ -1,0 +1,38 @@
+"""Derivatives of a growing mode of a small brake to its values, beside central differences of its root."""
+
+import numpy as np
+import pytest
+
+from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.sensitivity.matrices import Case, matrices, mean_friction, polished_root
+from pipeline.case_models.sensitivity.parameters import parameters
+from stages.complex_modes import Settings as Modes
+from stages.complex_modes import complex_modes
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
+from tests.stages.small_structure import small_friction_map, small_structure
+
+STEP = 1e-3
+
+
+def test_every_value_within_five_percent_of_differences():
+    """Growth rate and frequency, about the sliding state that each value leads to, of the two strongest modes."""
+    structure, law = small_structure(), small_friction_map(0.6)
+    model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
+    modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s", "12 rad/s"),
+                                                     frequency_max="8 kHz", followed=0))
+    points = stability_settings(modes)
+    for start, operating in zip(modes.unstable_reduced[:2], modes.unstable_operating[:2], strict=True):
+        state, speed = divmod(int(operating), len(points.speeds))
+        case = Case(model, state, points.speeds[speed])
+        found = parameters(case, structure, mean_friction(case, law, points), points)
+        assert len(found) >= 30 and len({p.name for p in found}) == len(found)
+        mode = polished_root(matrices(case, law, points), start)
+        assert mode.root == pytest.approx(start, rel=1e-8)
+        for each in found:
+            ends = [matrices(each.changed(case, side * STEP), law, points) for side in (-1, 1)]
+            change = mode.change([(b - a) / (2 * STEP) for a, b in zip(*ends, strict=True)])
+            roots = [polished_root(m, mode.root + s * STEP * change).root for m, s in zip(ends, (-1, 1), strict=True)]
+            expected = (roots[1] - roots[0]) / (2 * STEP)
+            for part in (np.real, np.imag):
+                assert part(change) == pytest.approx(part(expected), rel=0.05, abs=1e-6), each.name
