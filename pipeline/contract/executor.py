@@ -16,7 +16,7 @@ from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.fingerprint import project_digest
 from pipeline.contract.following import follow
-from pipeline.environment import ONE_THREAD
+from pipeline.environment import ONE_THREAD, SAFE
 
 #: solvers have global state: one task at a time per process, also in a worker with several threads
 _ONE_TASK = threading.Lock()
@@ -65,7 +65,7 @@ class LocalProcesses:
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""
         if self._pool is None:
-            os.environ.update(ONE_THREAD)
+            os.environ.update(ONE_THREAD | SAFE)
             spawn = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(self.workers, spawn, follow, (os.getpid(),))
         futures = [self._pool.submit(run_task, function, item) for item in items]
