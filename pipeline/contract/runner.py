@@ -301,7 +301,7 @@ def _remove(path):
 
 
 def _unreadable(path):
-    return "its file is damaged" if path.exists() else "not computed yet"
+    return "its file is damaged" if path.is_symlink() or path.exists() else "not computed yet"
 
 
 def _closed(folder, why):
