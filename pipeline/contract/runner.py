@@ -178,6 +178,10 @@ class ChainRun:
 
         Returns the number of stages computed.
         """
+        if not os.access(self.folder, os.W_OK) and not any(state.reasons for state in self.plan(first, last, force)):
+            for state in self.plan(first, last, force):     # nothing to write: the folder may be read-only
+                report(state, None)
+            return 0
         with locked(self.folder):
             try:
                 return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))

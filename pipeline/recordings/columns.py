@@ -120,7 +120,7 @@ def _nodes(name, node):
 
 def _refuse(told, node):
     if told:
-        raise ConfigError(f"{node.file.filename}: {node.name or 'a cell'}", "data of this file alone", told)
+        raise ConfigError(f"{node.file.filename}: {node.name or 'a cell'}", "data of this file", told)
 
 
 def read_table(path, delimiter=None, skip=0):

@@ -12,7 +12,7 @@ def flaw(group, name):
     """What the member ``name`` of a group takes from elsewhere, in words; '' where it takes nothing."""
     link = group.get(name, getlink=True)
     if isinstance(link, h5py.ExternalLink):
-        return "a link to another file"
+        return "data of another one"
     return flaw_of(group.get(name))
 
 
@@ -21,7 +21,7 @@ def flaw_of(node):
     if not isinstance(node, h5py.Dataset):
         return ""
     if node.is_virtual or node.external:
-        return "data of another file"
+        return "data of another one"
     creation = node.id.get_create_plist()
     others = {creation.get_filter(k)[0] for k in range(creation.get_nfilters())} - _FILTERS
     return f"a filter by plugin (number {min(others)})" if others else ""
@@ -35,7 +35,7 @@ def refuse_outside(group, path):
     for name in group:
         told = flaw(group, name)
         if told:
-            raise ConfigError(f"{path}: {group.name.rstrip('/')}/{name}", "data of this file alone", told,
+            raise ConfigError(f"{path}: {group.name.rstrip('/')}/{name}", "data of this file", told,
                               "copy the data into the file, with gzip if compressed")
         if isinstance(group.get(name, getlink=True), h5py.HardLink):
             node = group.get(name)

@@ -32,8 +32,8 @@ def plugin(h5, _):
 
 
 @pytest.mark.parametrize("spoil, told", [
-    (external_link, "a link to another file"), (external_storage, "data of another file"),
-    (virtual, "data of another file"), (plugin, "a filter by plugin .number 32015")])
+    (external_link, "data of another one"), (external_storage, "data of another one"),
+    (virtual, "data of another one"), (plugin, "a filter by plugin .number 32015")])
 def test_data_from_elsewhere(tmp_path, spoil, told):
     secret, path = tmp_path / "secret.h5", tmp_path / "r.h5"
     with h5py.File(secret, "w") as h5:
@@ -43,7 +43,7 @@ def test_data_from_elsewhere(tmp_path, spoil, told):
     assert list(read_neutral(path)) == ["a"]
     with h5py.File(path, "a") as h5:
         spoil(h5, secret)
-    with pytest.raises(ConfigError, match=f"runs/a/channels/y: expected data of this file alone, found {told}"):
+    with pytest.raises(ConfigError, match=f"runs/a/channels/y: expected data of this file, found {told}"):
         read_neutral(path)
     with h5py.File(path) as h5, pytest.raises(ConfigError, match=told):
         hdf5.refuse_outside(h5, path)
@@ -60,5 +60,5 @@ def test_a_cell_of_matlab_that_no_name_leads_to(tmp_path):
         h5.create_dataset("cells", (1, 1), h5py.ref_dtype)[0, 0] = hidden.ref
         del h5["group"]
     path.write_bytes(b"MATLAB 7.3 MAT-file".ljust(512) + path.read_bytes()[512:])
-    with pytest.raises(ConfigError, match="expected data of this file alone, found data of another file"):
+    with pytest.raises(ConfigError, match="expected data of this file, found data of another one"):
         read_matlab(path)
