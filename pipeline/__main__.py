@@ -1,14 +1,13 @@
 """Entry point of ``brakechain`` and ``python -m pipeline``."""
 
 import gc
-import os
 
-from pipeline.environment import ONE_THREAD
+from pipeline.environment import fix
 
 
 def main():
     """Fix the numerical environment, then hand over to the command line (numpy loads after this)."""
-    os.environ.update(ONE_THREAD)
+    fix()
     gc.set_threshold(100_000)       # modules and settings stay: looking through them again and again costs .1 s
     from pipeline.cli.main import main as command_line
 

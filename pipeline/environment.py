@@ -1,15 +1,37 @@
 """What makes results reproducible to the bit: one thread per process, one code path of MKL; the cache of kernels."""
 
 import os
+import sys
 from pathlib import Path
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1",
               "MKL_CBWR": "AUTO"}
+#: nothing in the folder where a process starts is imported: modules there may be named like ours or any other; nor
+#: does HDF5 load a library that a file asks for
+SAFE = {"PYTHONSAFEPATH": "1", "HDF5_PLUGIN_PRELOAD": "::"}
+_ROOT = Path(__file__).resolve().parents[1]
 CACHE = "NUMBA_CACHE_DIR"
 #: numba's locators of compiled code, ours first
 LOCATORS = "NUMBA_CACHE_LOCATOR_CLASSES"
 _LOCATORS = ("pipeline.physics.numerics.compiled_cache.SourceLocator", "UserProvidedCacheLocator", "InTreeCacheLocator",
              "UserWideCacheLocator")
+
+
+def of_children(environment=os.environ):
+    """Variables of a process of our own: one thread, and its modules from where this one has them."""
+    paths = (str(_ROOT), *filter(None, environment.get("PYTHONPATH", "").split(os.pathsep)))
+    return {**environment, **ONE_THREAD, **SAFE, "PYTHONPATH": os.pathsep.join(paths)}
+
+
+def fix(environment=os.environ, path=sys.path):
+    """Fix the environment of this process and of those that it starts; called before anything heavy is loaded.
+
+    The current folder, which ``python -m`` puts first on the ``path`` of modules, is taken from it unless it is ours.
+    """
+    environment.update(ONE_THREAD | SAFE)
+    here = Path.cwd()
+    if here != _ROOT:
+        path[:] = [folder for folder in path if folder and Path(folder).absolute() != here]
 
 
 def use_compiled_cache(environment=os.environ):

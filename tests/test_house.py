@@ -55,7 +55,7 @@ MAY_IMPORT = {
                                       "pipeline.environment"},
     "pipeline.views.chapters.bench.trial": {"pipeline.views", "pipeline.blind_trial.metrics.wording"},
     "pipeline.views.pages.trial": {"pipeline.views", "pipeline.contract", "pipeline.blind_trial.metrics.wording"},
-    "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
+    "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract", "pipeline.environment"},
     "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.validation",
                "pipeline.views", "pipeline.recordings", "pipeline.decks", "pipeline.case_models", "pipeline.diagnosis"},
     "pipeline.cli": {"pipeline.contract"},
@@ -74,11 +74,13 @@ MAY_IMPORT = {
 }
 #: third-party package -> its doors
 DOORS = {
-    "h5py": {"pipeline.contract.store", "pipeline.cli.inspect", "pipeline.recordings.columns",
-             "pipeline.recordings.neutral", "pipeline.blind_trial.generators.case_files"},
+    "h5py": {"pipeline.contract.store", "pipeline.contract.received.hdf5", "pipeline.cli.inspect",
+             "pipeline.recordings.columns", "pipeline.recordings.neutral",
+             "pipeline.blind_trial.generators.case_files"},
     "pyuff": {"pipeline.recordings.uff"}, "soundfile": {"pipeline.recordings.audio"},
     "nptdms": {"pipeline.recordings.tdms"}, "asammdf": {"pipeline.recordings.mdf"},
-    "yaml": {"pipeline.contract.documents", "pipeline.blind_trial.generators.case_files"},
+    "yaml": {"pipeline.contract.documents", "pipeline.contract.received.yaml_limits",
+             "pipeline.blind_trial.generators.case_files"},
     "click": {"pipeline.cli.export", "pipeline.cli.facts", "pipeline.cli.main", "pipeline.cli.new_case",
               "pipeline.cli.options", "pipeline.cli.surface_fit", "pipeline.cli.trial"},
     "rich": {"pipeline.cli.console"},

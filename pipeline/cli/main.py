@@ -15,7 +15,7 @@ from pipeline.cli.new_case import new
 from pipeline.cli.options import options
 from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
-from pipeline.contract.errors import BrakechainError
+from pipeline.contract.errors import BrakechainError, shortened
 
 RUNS = Path("data/runs")
 
@@ -162,6 +162,23 @@ def inspect(file):
 
 
 @cli.command()
+@click.argument("folder", metavar="RUN", type=click.Path(path_type=Path))
+@options("debug")
+def verify(folder):
+    """Verify that every product, table and page in the folder RUN is as it was written: all are hashed."""
+    from pipeline.contract import ProductError
+    from pipeline.contract.integrity.verify import verify as verified
+
+    files = verified(folder)
+    for file in files:
+        click.echo(f"{file.name:<32} {file.flaw or 'as it was written'}")
+    damaged = [file.name for file in files if file.flaw]
+    if damaged:
+        raise ProductError(folder, f"{len(files)} files as they were written", f"{len(damaged)} that are not:"
+                           f" {', '.join(damaged)}", "'brakechain run' computes them again")
+
+
+@cli.command()
 @click.argument("name", required=False)
 @options("debug")
 def schema(name):
@@ -273,7 +290,8 @@ def main():
     except BrakechainError as error:
         _fail(error, str(error), error.exit_code)
     except Exception as error:  # the last resort: one line for the user, the traceback on request
-        _fail(error, f"internal error: {type(error).__name__}: {error}; run again with --debug for the traceback", 1)
+        told = shortened(f"{type(error).__name__}: {error}", 1000)
+        _fail(error, f"internal error: {told}; run again with --debug for the traceback", 1)
 
 
 def _fail(error, message, code):

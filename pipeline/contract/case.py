@@ -12,6 +12,7 @@ from pipeline import __version__
 from pipeline.contract import documents, settings
 from pipeline.contract.context import CaseSummary
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received import confined
 
 #: top-level keys beside the sections of the stages
 HEAD = ("chain", "title", "description", "solver", "based_on")
@@ -154,6 +155,8 @@ def _read(path, chains, readers=()):
     if base is None:
         return {key: _laid_over(None, value) for key, value in document.items()}, (path.parent,)
     file = path.parent / str(base)
+    if not confined.allowed(file):
+        raise ConfigError(f"{path}: based_on", "a file of the case", f"{base!r} outside its folder")
     if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
         raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
     inherited, folders = _read(file, chains, (*readers, path))

@@ -1,18 +1,33 @@
 """YAML documents in: strict, with the line of every mistake. The one door of yaml."""
 
+import io
+import re
 from pathlib import Path
 
 import yaml
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.files import read_regular
+from pipeline.contract.received.yaml_limits import BYTES, refuse_excess
 
 _MERGE = "tag:yaml.org,2002:merge"
 #: characters shown of an error of a library
 _LONGEST = 200
+#: digits of a whole number
+_DIGITS = 300
+#: numbers to the base 60, as 12:30:45, which YAML 1.2 does not know any more: text here
+_SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
 
 
 class _StrictLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
-    """SafeLoader that refuses a key given twice."""
+    """SafeLoader that refuses a key given twice; 12:30 is a text and no number to the base 60."""
+
+    def construct_scalar(self, node):
+        """The text of a scalar; numbers too long to be one are refused with their line."""
+        if node.tag == "tag:yaml.org,2002:int" and isinstance(node.value, str) and len(node.value) > _DIGITS:
+            raise ConfigError(f"{node.start_mark.name}:{node.start_mark.line + 1}", f"a number of at most {_DIGITS}"
+                              " digits", f"{len(node.value)}")
+        return super().construct_scalar(node)
 
     def construct_mapping(self, node, deep=False):
         lines = {}
@@ -37,6 +52,17 @@ class _StrictLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
                               "correct it, or quote it if it is a text") from None
 
 
+def _without_sexagesimal(table):
+    """The ``table`` of implicit tags, {first letter: [(tag, pattern)]}, of YAML 1.1 without numbers to the base 60."""
+    plain = re.compile(rf"(?!(?:{_SEXAGESIMAL.pattern})\Z)")
+    return {letter: [(tag, re.compile(plain.pattern + f"(?:{pattern.pattern})", pattern.flags)
+                      if tag.endswith((":int", ":float")) else pattern) for tag, pattern in pairs]
+            for letter, pairs in table.items()}
+
+
+_StrictLoader.yaml_implicit_resolvers = _without_sexagesimal(_StrictLoader.yaml_implicit_resolvers)
+
+
 def read_yaml(path):
     """The YAML document at ``path`` as plain Python values; {} when it is empty.
 
@@ -44,9 +70,8 @@ def read_yaml(path):
     """
     path = Path(path)
     try:
-        with path.open(encoding="utf-8") as stream:
-            document = yaml.load(stream, _StrictLoader)
-            return {} if document is None else _unshared(document)
+        document = _loaded(read_regular(path, BYTES).decode("utf-8"), str(path))
+        return {} if document is None else _unshared(document)
     except FileNotFoundError:
         raise ConfigError(path, "a YAML file", "none", "check the path") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -57,6 +82,24 @@ def read_yaml(path):
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else path
         raise ConfigError(where, "valid YAML", getattr(error, "problem", None) or str(error)) from None
+
+
+def _loaded(text, name):
+    """The document of a ``text``; ``name``: of its file, in the marks of errors."""
+    refuse_excess(text, name, _StrictLoader)
+    loader = _StrictLoader(_Named(text, name))
+    try:
+        return loader.get_single_data()
+    finally:
+        loader.dispose()
+
+
+class _Named(io.StringIO):
+    """Text with the name that errors give it."""
+
+    def __init__(self, text, name):
+        super().__init__(text)
+        self.name = name
 
 
 def _unshared(value):
@@ -83,6 +126,6 @@ def _plain(value):
 def parse_value(text):
     """One YAML value from the command line: ``--set key=TEXT``."""
     try:
-        return yaml.load(text, _StrictLoader)
+        return _loaded(text, "--set")
     except (yaml.YAMLError, ValueError, TypeError, AttributeError, RecursionError) as error:
         raise ConfigError(f"--set ...={text}", "a YAML value", getattr(error, "problem", None) or str(error)) from None

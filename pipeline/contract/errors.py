@@ -3,6 +3,15 @@
 Each class has its exit code: 2 for input, 3 for non-convergence, 4 for files.
 """
 
+#: characters of a message, and of each of its parts
+LONGEST, _PART = 2000, 600
+
+
+def shortened(text, most=LONGEST):
+    """``text`` of at most ``most`` characters, its end cut; what steers a terminal is written out."""
+    text = "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in str(text)[:most + 1])
+    return text if len(text) <= most else f"{text[:most - 4]} ..."
+
 
 class BrakechainError(Exception):
     """Base of every error that a user can correct; ``str(error)`` is the complete message."""
@@ -11,10 +20,11 @@ class BrakechainError(Exception):
 
     def __init__(self, where, expected=None, found=None, remedy=None):
         self.where, self.expected, self.found, self.remedy = where, expected, found, remedy
+        expected, found, remedy = (part and shortened(part, _PART) for part in (expected, found, remedy))
         parts = [f"expected {expected}" * bool(expected), f"found {found}" * bool(found)]
         sentence = ", ".join(part for part in parts if part)
         message = f"{where}: {sentence}" if sentence else str(where)
-        super().__init__(f"{message}; {remedy}" if remedy else message)
+        super().__init__(shortened(f"{message}; {remedy}" if remedy else message))
 
     def __reduce__(self):
         return type(self), (self.where, self.expected, self.found, self.remedy)

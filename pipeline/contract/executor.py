@@ -5,6 +5,7 @@ Every task runs with one BLAS thread; results come back in the order of the item
 
 import multiprocessing
 import os
+import signal
 import threading
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -16,7 +17,7 @@ from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.fingerprint import project_digest
 from pipeline.contract.following import follow
-from pipeline.environment import ONE_THREAD
+from pipeline.environment import ONE_THREAD, SAFE
 
 #: solvers have global state: one task at a time per process, also in a worker with several threads
 _ONE_TASK = threading.Lock()
@@ -54,6 +55,12 @@ class InProcess:
         """Nothing to release."""
 
 
+def _begin(parent):
+    """Begin of a worker: it ends with its parent, and leaves Ctrl-C, which every process of a terminal gets, to it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    follow(parent)
+
+
 class LocalProcesses:
     """``workers`` processes on this machine, started when first needed."""
 
@@ -65,9 +72,9 @@ class LocalProcesses:
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""
         if self._pool is None:
-            os.environ.update(ONE_THREAD)
+            os.environ.update(ONE_THREAD | SAFE)
             spawn = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(self.workers, spawn, follow, (os.getpid(),))
+            self._pool = ProcessPoolExecutor(self.workers, spawn, _begin, (os.getpid(),))
         futures = [self._pool.submit(run_task, function, item) for item in items]
         try:
             for future in as_completed(futures):
@@ -76,15 +83,22 @@ class LocalProcesses:
         except BrokenProcessPool:
             raise BrakechainError("local processes", "workers that run to the end", "one that was killed",
                                   "usually memory ran out: try --workers 1") from None
-        except BaseException:
+        except BaseException as error:
             for future in futures:
                 future.cancel()
+            if isinstance(error, KeyboardInterrupt):
+                self.stop()
             raise
         return [future.result()[0] for future in futures]
 
     def close(self):
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
+
+    def stop(self):
+        """End the workers now, without waiting for what they compute."""
+        for process in list((getattr(self._pool, "_processes", None) or {}).values()):
+            process.terminate()
 
 
 #: expression whose value is the digest of the brakechain where it is evaluated; to ask needs no brakechain there

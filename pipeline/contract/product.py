@@ -8,11 +8,10 @@ import numpy as np
 
 from pipeline.contract.errors import ProductError
 from pipeline.contract.mapped import blocks, map_of, sent
+from pipeline.contract.received.names import EXPECTED, is_name
 from pipeline.contract.units import SI
 
 Array = np.ndarray
-#: name of a nested product, a group of the file
-_PART = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 def quantity(unit, dims, meaning, dtype=float, narrow=False):
@@ -131,8 +130,8 @@ def _as_parts(value, cls, where):
     if not isinstance(value, dict):
         raise ProductError(where, f"a mapping of names to {cls.name}", type(value).__name__)
     for name, inner in value.items():
-        if not isinstance(name, str) or not _PART.fullmatch(name):
-            raise ProductError(f"{where}: a name", "letters, digits and _ . -", repr(name))
+        if not is_name(name):
+            raise ProductError(f"{where}: a name", EXPECTED, repr(name))
         _check_part(inner, cls, f"{where}.{name}")
     return dict(value)
 

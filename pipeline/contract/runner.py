@@ -7,7 +7,7 @@ import os
 import platform
 import subprocess
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from importlib import metadata
@@ -20,6 +20,9 @@ from pipeline.contract import fingerprint, store
 from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import ConfigError, ProductError
+from pipeline.contract.integrity import checksum, seen
+from pipeline.contract.integrity.verify import recorded
+from pipeline.contract.received import files, names
 from pipeline.contract.stage import Products
 
 _PACKAGES = ("numpy", "scipy", "scikit-fem", "exudyn", "h5py", "numba", "pypardiso", "SurfaceTopography", "pyvista")
@@ -86,6 +89,7 @@ class ChainRun:
             parts = [p.name for p in self.filled(stage).values() if p] if not stage.reads_all else [""]
             if stage.name not in changed and all(part in shared for part in parts):
                 shared[stage.output.name] = self.path(stage.output)
+        names.within(self.folder, f"variants/{names.checked(name, 'a variant')}")
         return ChainRun(self.case.varied(changes), self.folder / "variants" / name, self.solver, name, shared)
 
     def _ingredients(self, stage):
@@ -114,8 +118,8 @@ class ChainRun:
         reasons = [] if current is None else fingerprint.reasons(stored and stored["fingerprint"], current)
         if stored is None:
             reasons = [_unreadable(path)]
-        elif stored["companions"] and not all((self.folder / name).exists() for name in stored["companions"]):
-            reasons.append("a companion file is missing")
+        else:
+            reasons += _of_companions(self.folder, stored["companions"])
         renewed = [p.name for p in self.filled(stage).values() if p and p.name in stale]
         renewed += [f"{argument} of {name}" for name, run, last, argument in self.variants(stage)
                     if any(each.reasons for each in run.needed(last, stale))]
@@ -174,8 +178,26 @@ class ChainRun:
 
         Returns the number of stages computed.
         """
+        if not os.access(self.folder, os.W_OK) and not any(state.reasons for state in self.plan(first, last, force)):
+            for state in self.plan(first, last, force):     # nothing to write: the folder may be read-only
+                report(state, None)
+            return 0
         with locked(self.folder):
-            return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))
+            try:
+                return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))
+            finally:
+                self._note()
+
+    def _note(self):
+        """List what is as it was written: it is not hashed again before it changes."""
+        right = {}
+        for stage in self.case.stages:
+            path = self.path(stage.output)
+            stored = path.parent == self.folder and _stored(path)
+            if stored:
+                right |= {path.name: ""} | {name: digest for name, digest in stored["companions"].items()
+                                            if not seen.differs(self.folder / name, digest)}
+        seen.note(self.folder, right)
 
     def _bring(self, stage, context, force, report):
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
@@ -217,12 +239,14 @@ class ChainRun:
             raise ProductError(f"stage {stage.name}", "the same code from start to end", "code that changed meanwhile",
                                "run again")
         companions = stage.companions(output, self.case.moved_to(self.folder)) if stage.companions else {}
+        companions = {name: text.encode() if isinstance(text, str) else text for name, text in companions.items()}
         for name in companions:     # removed first: a product never lies beside companions of another one
-            (self.folder / name).unlink(missing_ok=True)
+            _remove(self.folder / names.checked(name, f"companions of {stage.name}"))
         store.write(output, self.path(stage.output), {
             "stage": stage.name, "brakechain": __version__, "git_commit": git_commit(),
             "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(current)),
-            "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
+            "companions": json.dumps({name: checksum.digest_of(companions[name]) for name in sorted(companions)}),
+            "packages": json.dumps(_packages()),
             "kernels": json.dumps(_kernels()), "python": platform.python_version(), "machine": platform.machine(),
             "wall_seconds": seconds, "cpu_seconds": cpu_seconds() + context.spent_elsewhere() - cpu})
         for name, content in companions.items():
@@ -251,6 +275,7 @@ def _computed(task, context=None):
     with locked(run.folder):
         for each in run._towards(last):
             run._bring(each, context, frozenset(), lambda state, seconds: done.append((state, seconds)))
+        run._note()
     return [(state, seconds) for state, seconds in done if seconds is not None]
 
 
@@ -260,13 +285,27 @@ def _stored(path):
         return None
     try:
         provenance = store.provenance(path)
-        return {name: json.loads(provenance[name]) for name in ("fingerprint", "companions")}
+        return {"fingerprint": json.loads(provenance["fingerprint"]), "companions": recorded(provenance)}
     except (ProductError, KeyError, ValueError, OSError, RuntimeError):
         return None
 
 
+def _of_companions(folder, companions):
+    """What is wrong with ``companions`` {name: digest} of a product, one phrase each."""
+    missing = [name for name in companions if not files.is_plain(folder / name)]
+    changed = [name for name in companions if name not in missing and seen.differs(folder / name, companions[name])]
+    return ["a companion file is missing"] * bool(missing) + [f"{name} is not as it was written" for name in changed]
+
+
+def _remove(path):
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as error:
+        raise ProductError(path, "a file that can be replaced", error.strerror) from None
+
+
 def _unreadable(path):
-    return "its file is damaged" if path.exists() else "not computed yet"
+    return "its file is damaged" if path.is_symlink() or path.exists() else "not computed yet"
 
 
 def _closed(folder, why):
@@ -279,14 +318,14 @@ def locked(folder):
     """Lock the run folder for this process; the lock is released however the process ends."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+        handle = files.open_lock(folder / ".lock")
     except OSError as error:
-        raise _closed(folder, error.strerror) from None
+        raise _closed(folder, f".lock: {error.strerror}" if folder.is_dir() else error.strerror) from None
     try:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            holder = os.pread(handle, 32, 0).decode() or "unknown"
+            holder = os.pread(handle, 32, 0).decode(errors="replace") or "unknown"
             raise ProductError(folder, "a free run folder", f"another run on it (process {holder})",
                                "wait for it, or choose another folder with --run") from None
         os.ftruncate(handle, 0)
@@ -300,7 +339,8 @@ def locked(folder):
 def _sweep(folder):
     """Remove files that a killed run left half-written."""
     for half in folder.glob(".*.partial"):
-        half.unlink()
+        with suppress(OSError):
+            half.unlink()
 
 
 def _packages():

@@ -29,6 +29,7 @@ from pydantic import (
 )
 
 from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.received import confined
 from pipeline.contract.units import example, to_si
 
 #: keys of an annotated YAML value
@@ -161,6 +162,8 @@ def moved_to(value, folders, destination):
 def _existing(value, info: ValidationInfo):
     """Resolve a file: 'measured:NAME', or a path from beside the YAML that names it, its case's folders or here."""
     context = info.context or {}
+    if str(value).startswith("measured:") and confined.confined():
+        raise ValueError(f"expected a file of the case, found {str(value)!r}")
     if str(value).startswith("measured:"):
         try:
             return context["measured"](str(value).removeprefix("measured:"))
@@ -172,6 +175,8 @@ def _existing(value, info: ValidationInfo):
     file = next((path for path in candidates if path.is_file()), None)
     if file is None:
         raise ValueError(f"expected a file, found none at {' or '.join(repr(str(c)) for c in candidates)}")
+    if not confined.allowed(file):
+        raise ValueError(f"expected a file of the case, found {str(value)!r} outside its folder")
     return file
 
 

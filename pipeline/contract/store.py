@@ -7,15 +7,17 @@ so that xarray (engine h5netcdf, group "data") sees named dimensions; ``/provena
 
 import hashlib
 import os
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import fields
 from pathlib import Path
 
 import h5py
 
 from pipeline.contract.errors import ProductError
+from pipeline.contract.integrity import checksum, seen
 from pipeline.contract.mapped import LARGE, blocks, mapped, opened
 from pipeline.contract.product import held_by, is_product
+from pipeline.contract.received import files, hdf5
 
 
 class DamagedFile(ProductError):
@@ -49,28 +51,36 @@ def content_hash(item):
 
 
 def write(item, path, provenance, content=None):
-    """Write ``item`` to ``path`` completely or not at all: temporary name, sync, rename."""
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.partial")
-    try:
-        with h5py.File(partial, "w", track_order=True, alignment_threshold=LARGE, alignment_interval=_PAGE) as h5:
+    """Write ``item`` to ``path`` completely or not at all: temporary name, checksum, sync, rename."""
+
+    def fill(partial):
+        with h5py.File(files.cleared(partial), "x", track_order=True, alignment_threshold=LARGE,
+                       alignment_interval=_PAGE) as h5:
             h5.attrs.update(product=item.name, version=item.version, content=content or content_hash(item))
             _write_group(h5.create_group("data", track_order=True), item)
             h5.create_group("provenance").attrs.update(provenance)
-        publish(partial, path)
-    except OSError as error:
-        raise _unwritable(path, error) from error
+        checksum.seal(partial)
+
+    _whole(Path(path), fill)
 
 
 def write_companion(path, content):
     """Write text or bytes beside a product, completely or not at all."""
-    path = Path(path)
+    content = content.encode() if isinstance(content, str) else content
+    _whole(Path(path), lambda partial: files.write_new(partial, content))
+
+
+def _whole(path, fill):
+    """Publish what ``fill`` writes to a temporary name; nothing of it stays where that fails."""
     partial = path.with_name(f".{path.name}.partial")
     try:
-        partial.write_bytes(content.encode() if isinstance(content, str) else content)
+        fill(partial)
         publish(partial, path)
-    except OSError as error:
+    except (OSError, RuntimeError) as error:        # h5py raises the latter where it cannot write its last bytes
         raise _unwritable(path, error) from error
+    finally:
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
 
 
 def publish(partial, path):
@@ -140,12 +150,9 @@ def read(cls, path, whole=False):
 
     Large arrays stay in the file, which is mapped; ``whole``: all are read into memory.
     """
-    with _opened(path) as h5:
+    with _opened(path, checksum.flaw) as h5:
         _check_identity(h5, cls, path)
-        item, content = _read_group(h5["data"], cls, path, None if whole else opened(path)), h5.attrs["content"]
-    if content_hash(item) != content:
-        raise _damaged(path, "its values are not those that were written")
-    return item
+        return _read_group(_member(h5, "data", path), cls, path, None if whole else opened(path))
 
 
 def identity(path):
@@ -153,7 +160,7 @@ def identity(path):
     if not Path(path).exists():
         return None
     try:
-        with _opened(path) as h5:
+        with _opened(path, seen.flaw) as h5:
             return tuple(h5.attrs[k] for k in ("product", "version", "content"))
     except DamagedFile:
         return None
@@ -161,14 +168,17 @@ def identity(path):
 
 def provenance(path):
     """The provenance attributes of a product file, as a dict."""
-    with _opened(path) as h5:
+    with _opened(path, seen.flaw) as h5:
         return dict(h5["provenance"].attrs)
 
 
 @contextmanager
-def _opened(path):
-    """The open file; what is raised of damaged bytes while it is read says so."""
-    with _file(path) as h5, damage_told(path):
+def _opened(path, flaw):
+    """The open file; what is raised of damaged bytes while it is read says so.
+
+    ``flaw(path)``: what is wrong with the bytes of the file, before HDF5 sees any: it may not survive them.
+    """
+    with _file(path, flaw) as h5, damage_told(path):
         yield h5
 
 
@@ -181,12 +191,15 @@ def damage_told(path):
         raise _damaged(path, error) from None
 
 
-def _file(path):
+def _file(path, flaw):
     if not Path(path).exists():
         product = Path(path).stem
         command = f"brakechain {product.replace('_', '-')}"
         raise ProductError(path, f"the product {product}", "no file", f"run '{command}' first")
     try:
+        told = flaw(path)
+        if told:
+            raise _damaged(path, told)
         return h5py.File(path, "r")
     except (PermissionError, BlockingIOError) as error:
         raise ProductError(path, "a file that can be read", error.strerror or str(error),
@@ -216,18 +229,26 @@ def _read_group(group, cls, path, file):
     values = {}
     for f in fields(cls):
         if is_product(f.type):
-            values[f.name] = _read_group(group[f.name], f.type, path, file)
+            values[f.name] = _read_group(_member(group, f.name, path), f.type, path, file)
             continue
         if held_by(f.type):
-            values[f.name] = {name: _read_group(each, held_by(f.type), path, file)
-                              for name, each in group[f.name].items()}
+            inner = _member(group, f.name, path)
+            values[f.name] = {name: _read_group(_member(inner, name, path), held_by(f.type), path, file)
+                              for name in inner}
             continue
-        dataset = group[f.name]
+        dataset = _member(group, f.name, path)
         if dataset.attrs["units"] != f.metadata["unit"]:
             raise ProductError(f"{path}: {f.name}", f"units {f.metadata['unit']}", dataset.attrs["units"])
         is_text = h5py.check_string_dtype(dataset.dtype) is not None
         values[f.name] = dataset.asstr()[()] if is_text else _array(dataset, file)
     return cls(**values)
+
+
+def _member(group, name, path):
+    """The member ``name`` of a group; refused where it takes its data from elsewhere."""
+    if hdf5.flaw(group, name):
+        raise _damaged(path, f"{name}: {hdf5.flaw(group, name)}")
+    return group[name]
 
 
 def _array(dataset, file):
@@ -240,12 +261,13 @@ def _array(dataset, file):
 
 def walk(path):
     """Yield (name, attributes, dataset or None) for every group and dataset of a product file; refuses others."""
-    with _opened(path) as h5:
+    with _opened(path, checksum.flaw) as h5:
         if "product" not in h5.attrs:
             raise ProductError(path, "a product of brakechain", "an HDF5 file without product name",
                                "for recordings see 'brakechain data format'")
         yield "/", dict(h5.attrs), None
         rows = []
+        hdf5.refuse_outside(h5, path)
         h5["data"].visititems(lambda name, node: rows.append((f"data/{name}", node)))
         for name, node in rows:
             is_array = isinstance(node, h5py.Dataset)

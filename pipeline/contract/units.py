@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.unit_grammar import NoUnitError, checked_unit
 
 #: every unit a product or a setting may carry (each is coherent SI; a test asks pint)
 SI = frozenset({
@@ -38,7 +39,7 @@ _PARTS = ((re.compile(r"(?<![A-Za-z])([kM]?N)(m{1,2})(?![A-Za-z])"), r"(\1 \2)")
           (re.compile(r"\b([mu]?m)/s2\b"), r"\1/s^2"))
 #: a temperature as it is read; 0 degC in K
 _CELSIUS, _ZERO_CELSIUS = ("degC", "°C"), 273.15
-_LEVEL = re.compile(r"dB\s+re\s+(?P<value>[\d.]+(e[-+]?\d+)?)\s*(?P<unit>.+)", re.IGNORECASE)
+_LEVEL = re.compile(r"dB\s+re\s+(?P<value>(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)\s*(?P<unit>.+)", re.IGNORECASE)
 
 #: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
 TURNED = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2", "N": "N m", "N/m": "N m/rad", "N s/m": "N m s/rad",
@@ -56,6 +57,8 @@ _PLAIN = frozenset({"m", "s", "kg", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", 
 _EXPONENT = {"": 0, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "n": -9}
 _SPELT = {("deg", "rad"): math.pi / 180, ("rpm", "rad/s"): math.pi / 30,
           **{(name, "m/s^2"): value for name, value in GRAVITIES.items()}}
+#: decimal exponents that a product of prefixes may have; characters shown of a quantity that is refused
+_DECADES, _LONGEST = 300, 200
 _ATOM = re.compile(r"(?P<name>[A-Za-z]+)(\^(?P<power>[23]))?")
 
 
@@ -76,19 +79,40 @@ def to_si(value, unit, where):
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         if unit != "1":
             raise ConfigError(where, expected, f"{value!r} without a unit", "write the unit after the number")
-        return float(value)
+        return _as_float(value, where, expected)
     spelt = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if not spelt or (unit != "1" and not spelt["unit"]):
         raise ConfigError(where, expected, repr(value))
     if _STRAY.search(_OF_UNIT.sub("", spelt["unit"])):
         raise ConfigError(where, expected, repr(value), "write one number, with a decimal point, and its unit")
     number, written = value.removesuffix(spelt["unit"]), as_written(spelt["unit"])
+    if written:
+        written = _of_grammar(written, where, expected, value)
     if unit == "K" and written in _CELSIUS:
         return float(number) + _ZERO_CELSIUS
-    plain = _plainly(number, written, unit)
-    if plain is not None:
-        return plain
-    return _convert(f"{number}{written}", unit, lambda: ConfigError(where, expected, repr(value)))
+    result = _plainly(number, written, unit)
+    if result is None:
+        result = _convert(f"{number}{written}", unit, lambda: ConfigError(where, expected, repr(value)))
+    if not math.isfinite(result):
+        raise ConfigError(where, expected, f"{value!r}, which is not finite")
+    return result
+
+
+def _as_float(value, where, expected):
+    try:
+        return float(value)
+    except OverflowError:
+        raise ConfigError(where, expected, "a number that is too large") from None
+
+
+def _of_grammar(written, where, expected, value):
+    """A unit behind a number as pint may read it; ConfigError where it is of no grammar that is known."""
+    lead = written[0] if written[0] in "*/" else ""
+    try:
+        return lead + checked_unit(written[len(lead):])
+    except NoUnitError:
+        raise ConfigError(where, expected, repr(value)[:_LONGEST], "write one number and a unit with powers up to"
+                          " 9") from None
 
 
 def _plainly(number, spelt, unit):
@@ -100,7 +124,7 @@ def _plainly(number, spelt, unit):
     given, wanted = _factors(spelt), _factors("" if unit == "1" else unit)
     if given is None or wanted is None or given[0] != wanted[0]:
         return None
-    return float(number) * 10.0 ** given[1]
+    return float(number) * 10.0 ** given[1] if abs(given[1]) < _DECADES else None
 
 
 @cache
@@ -145,7 +169,7 @@ def in_si(values, unit, where, measures=""):
     if "m/s^2" in wanted and unit in GRAVITIES:
         return values * GRAVITIES[unit], "m/s^2"
     try:
-        quantity = _registry().Quantity(values, "" if unit == "1" else unit)
+        quantity = _registry().Quantity(values, checked_unit(unit) if unit.strip() not in ("", "1") else "")
         name = next((n for n in MEASURED if quantity.is_compatible_with("" if n == "1" else n)), None)
         if set(map(str, quantity.units._units)) & _ANGULAR:
             name = {"1": "rad", "Hz": "rad/s"}.get(name, name)

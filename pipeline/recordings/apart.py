@@ -5,7 +5,6 @@ child has limits of time and memory, and answers with arrays, or with a product,
 """
 
 import json
-import os
 import subprocess
 import sys
 from importlib import import_module
@@ -17,7 +16,7 @@ import numpy as np
 from pipeline.contract import store
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.mapped import blocks, map_of, mapped, opened
-from pipeline.environment import ONE_THREAD
+from pipeline.environment import of_children
 from pipeline.products import Recording, Run
 from pipeline.recordings.audio import read_audio
 from pipeline.recordings.columns import read_matlab
@@ -67,9 +66,7 @@ def _child(kind, path, given, collect):
         raise ConfigError(path, "a regular file", "none" if not path.exists() else "another kind of file")
     size = path.stat().st_size
     seconds = _SECONDS + size // _BYTES_A_SECOND
-    home = str(Path(__file__).parents[2])
-    variables = os.environ | ONE_THREAD | {
-        "PYTHONPATH": os.pathsep.join(filter(None, (home, os.environ.get("PYTHONPATH")))), "PYTHONSAFEPATH": "1"}
+    variables = of_children()
     with TemporaryDirectory(prefix="brakechain-") as folder:
         arguments = [kind, str(path.absolute()), folder, str(seconds), str(_MEMORY + _MEMORY_A_BYTE * size)]
         try:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.hdf5 import flaw, flaw_of, refuse_outside
 
 #: text in a table that stands for a missing sample
 _NUMBER = re.compile(r"\s*[-+]?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|inf|Inf|INF)\s*")
@@ -102,30 +103,24 @@ def _read_hdf5(path, expected):
         raise ConfigError(path, expected, str(error)) from None
 
 
-def refuse_outside(group, path):
-    """Refuse an HDF5 file that takes anything from another file: by an external link, or by storage outside of it."""
-    import h5py
-
-    for name in group:
-        link = group.get(name, getlink=True)
-        node = None if isinstance(link, h5py.ExternalLink) else group.get(name)
-        outside = isinstance(node, h5py.Dataset) and (node.external or node.is_virtual)
-        if outside or isinstance(link, h5py.ExternalLink):
-            raise ConfigError(f"{path}: {group.name.rstrip('/')}/{name}", "data of this file", "data of another one")
-        if isinstance(node, h5py.Group) and isinstance(link, h5py.HardLink):
-            refuse_outside(node, path)
-
-
 def _nodes(name, node):
     """[(name, array)] of a node: the structures and cells of MATLAB 7.3 are groups and references."""
     import h5py
 
     if isinstance(node, h5py.Group):
+        for key in node:        # a group that only a reference leads to was not looked through
+            _refuse(flaw(node, key), node)
         return [leaf for key, inner in node.items() for leaf in _nodes(f"{name}.{key}", inner)]
+    _refuse(flaw_of(node), node)
     if h5py.check_ref_dtype(node.dtype):
         cells = enumerate(node[()].T.ravel(order="F"))
         return [leaf for k, cell in cells if cell for leaf in _nodes(f"{name}{{{k + 1}}}", node.file[cell])]
     return [(name, node[()])]
+
+
+def _refuse(told, node):
+    if told:
+        raise ConfigError(f"{node.file.filename}: {node.name or 'a cell'}", "data of this file", told)
 
 
 def read_table(path, delimiter=None, skip=0):

@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.hdf5 import refuse_outside
 from pipeline.contract.units import in_si, quotient_in_si
 from pipeline.products import (
     Condition,
@@ -16,7 +17,6 @@ from pipeline.products import (
     Run,
     Topography,
 )
-from pipeline.recordings.columns import refuse_outside
 from pipeline.recordings.friction import SILENT
 from pipeline.recordings.samples import channel
 

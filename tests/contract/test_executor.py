@@ -4,7 +4,9 @@ import os
 import re
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -99,3 +101,28 @@ def _gone(pid, patience=10.0):
             return True
         time.sleep(0.1)
     return False
+
+
+_INTERRUPTED = """
+import os, signal, sys, threading, time
+from pipeline.contract.executor import LocalProcesses
+
+if __name__ == "__main__":
+    work = LocalProcesses(2)
+    work.map(abs, [1, 2], lambda: None)
+    threading.Timer(1.0, lambda: os.killpg(0, signal.SIGINT)).start()
+    try:
+        work.map(time.sleep, [60, 60], lambda: None)
+    except KeyboardInterrupt:
+        work.close()
+        print("stopped")
+"""
+
+
+def test_ctrl_c_ends_two_workers_without_a_traceback(tmp_path):
+    """The signal of a terminal goes to all processes of its group."""
+    (tmp_path / "main.py").write_text(_INTERRUPTED)
+    begin = time.perf_counter()
+    done = subprocess.run([sys.executable, "main.py"], cwd=tmp_path, capture_output=True, text=True, timeout=50,
+                          start_new_session=True, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])})
+    assert done.stdout == "stopped\n" and done.stderr == "" and time.perf_counter() - begin < 45

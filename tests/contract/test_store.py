@@ -9,6 +9,7 @@ import pytest
 
 from pipeline.cli.inspect import describe
 from pipeline.contract import ProductError, store
+from pipeline.contract.integrity import checksum
 from pipeline.contract.mapped import map_of
 from pipeline.products import FrictionMap, Surface
 from tests.contract.test_product import GOOD
@@ -60,6 +61,7 @@ def test_refuses_another_product_and_version(written):
         store.read(Doubled, written)
     with h5py.File(written, "a") as h5:
         h5.attrs["version"] = 99
+    checksum.seal(written)
     with pytest.raises(ProductError, match="expected source version 1, found source version 99; rerun"):
         store.read(Source, written)
 
@@ -67,6 +69,7 @@ def test_refuses_another_product_and_version(written):
 def test_refuses_another_unit(written):
     with h5py.File(written, "a") as h5:
         h5["data/signal"].attrs["units"] = "bar"
+    checksum.seal(written)
     with pytest.raises(ProductError, match="signal: expected units Pa, found bar"):
         store.read(Source, written)
 
@@ -75,7 +78,7 @@ def test_refuses_truncated_changed_or_missing_files(written):
     whole = written.read_bytes()
     with h5py.File(written, "a") as h5:
         h5["data/signal"][0, 0] = 7.0
-    with pytest.raises(ProductError, match="values are not those that were written"):
+    with pytest.raises(ProductError, match="no checksum at its end"):
         store.read(Source, written)
     written.write_bytes(whole[: len(whole) // 2])
     with pytest.raises(ProductError, match="truncated or damaged"):

@@ -16,11 +16,14 @@ from pathlib import Path
 
 from pipeline.contract import documents
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received import files, names
 from pipeline.contract.store import write_companion
 
 FORMAT = "brakechain-trial/1"
 #: what a case is made of
 FILES = ("nominal.yaml", "recordings.h5")
+#: bytes of a JSON file of a set
+_MOST = 200_000_000
 
 
 class TrialSet:
@@ -28,7 +31,7 @@ class TrialSet:
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        self.about = documents.read_yaml(self.folder / "set.yaml") if (self.folder / "set.yaml").exists() else {}
+        self.about = self.read_yaml("set.yaml") if self.has("set.yaml") else {}
         if self.about and self.about.get("format") != FORMAT:
             raise ConfigError(self.folder / "set.yaml", f"format: {FORMAT}", repr(self.about.get("format")))
 
@@ -43,14 +46,15 @@ class TrialSet:
     @property
     def cases(self):
         """{number: folder}, each with both files; ConfigError where one lacks any."""
-        folders = {p.name: p for p in sorted((self.folder / "cases").glob("*")) if p.is_dir()}
+        folders = {p.name: p for p in sorted(self.path("cases").glob("*")) if p.is_dir()}
         if not folders:
             raise ConfigError(self.folder / "cases", "folders of cases, such as cases/001", "none",
                               "see docs/trial_sets.md")
+        names.checked_all(folders, self.folder / "cases")
         for case in folders.values():
-            lacks = [name for name in FILES if not (case / name).is_file()]
-            if lacks:
-                raise ConfigError(case, " and ".join(FILES), f"no {' and no '.join(lacks)}")
+            lacks = [name for name in FILES if not files.is_plain(case / name)]
+            if lacks or case.is_symlink():
+                raise ConfigError(case, " and ".join(FILES), "a link" if not lacks else f"no {' and no '.join(lacks)}")
         return folders
 
     def digest(self):
@@ -60,18 +64,24 @@ class TrialSet:
         return sha256("\n".join(lines).encode())
 
     def path(self, name):
-        return self.folder / name
+        """Path of a file of the set; ConfigError where a name or a link leads out of it."""
+        return names.within(self.folder, name)
 
     def has(self, name):
         return self.path(name).exists()
 
     def read(self, name):
-        """A JSON file of the set; ConfigError where it is none."""
-        return read_json(self.path(name))
+        """The mapping in a JSON file of the set; ConfigError where it is none."""
+        return _mapping(read_json(self.path(name)), self.path(name))
 
     def read_yaml(self, name):
-        """A YAML file of the set."""
-        return documents.read_yaml(self.path(name))
+        """The mapping in a YAML file of the set."""
+        return _mapping(documents.read_yaml(self.path(name)), self.path(name))
+
+    def truth(self, file=None):
+        """{number: truth} of truth.json, or of another ``file``: numbers are names, truths mappings."""
+        path = file or self.path("truth.json")
+        return checked_truth(read_json(path), path)
 
     def write(self, name, values):
         """Write values as JSON, or as YAML where the name says so: whole or not at all."""
@@ -83,9 +93,22 @@ class TrialSet:
 def read_json(path):
     """Values of a JSON file; ConfigError where there is none."""
     try:
-        return json.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        return json.loads(files.read_regular(path, _MOST).decode("utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
         raise ConfigError(path, "a readable JSON file", str(error)) from None
+
+
+def checked_truth(truth, where):
+    """A truth {number: mapping}, whose numbers are names of cases; ConfigError at ``where`` for anything else."""
+    for number, case in names.checked_all(truth, where).items():
+        _mapping(case, f"{where}: {number}")
+    return truth
+
+
+def _mapping(values, where):
+    if not isinstance(values, dict):
+        raise ConfigError(where, "a mapping", repr(values)[:60])
+    return values
 
 
 def sha256(content):

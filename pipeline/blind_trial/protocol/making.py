@@ -15,6 +15,7 @@ from pipeline.blind_trial.protocol.case_set import FORMAT, TrialSet, canonical, 
 from pipeline.blind_trial.protocol.stratification import drawn
 from pipeline.blind_trial.protocol.truth_format import check_truth
 from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.received import names
 from pipeline.contract.runner import locked
 from pipeline.contract.store import write_companion
 
@@ -73,7 +74,7 @@ def begun(folder):
 
 
 def _making(folder):
-    return folder / ".making"
+    return names.within(folder, ".making")
 
 
 def _planned(asked):
@@ -94,7 +95,7 @@ def _draws(store, asked):
     if plan["asked"] != asked:
         raise ConfigError(store.folder.parent, f"the command that began this set: {plan['asked']}", str(asked),
                           "repeat that command, or name a new folder")
-    return {number: Draw.read(record) for number, record in plan["draws"].items()}
+    return {number: Draw.read(record) for number, record in names.checked_all(plan["draws"], store.folder).items()}
 
 
 def _seed(random, given):
@@ -104,7 +105,7 @@ def _seed(random, given):
 def _made(folder, store, item):
     """Make one case, unless it is there: its truth first, then its folder under its name."""
     number, draw = item
-    case, half = folder / "cases" / number, store.folder / number
+    case, half = names.within(folder, f"cases/{number}"), names.within(store.folder, number)
     if case.exists():
         return
     truth = _drawn(draw, half)
@@ -148,7 +149,7 @@ def seal(folder, new_key):
     if cases.has("answers") or cases.has("answers.json"):
         raise ConfigError(cases.folder, "a set that nobody has solved", "answers",
                           "to seal a truth that was known while it was solved would prove nothing")
-    truth = cases.read("truth.json")
+    truth = cases.truth()
     check_truth(cases, truth)
     seal_truth(cases, truth, new_key())
     cases.path("truth.json").unlink()

@@ -2,14 +2,16 @@
 
 import shutil
 from functools import partial
+from numbers import Real
 from pathlib import Path
 
 from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
 from pipeline.blind_trial.protocol import sealing
-from pipeline.blind_trial.protocol.case_set import TrialSet
+from pipeline.blind_trial.protocol.case_set import TrialSet, checked_truth
 from pipeline.blind_trial.protocol.making import described
 from pipeline.blind_trial.protocol.scoring import unsealed
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received import names
 from pipeline.contract.runner import locked
 
 #: where cases lie until they are whole
@@ -55,13 +57,13 @@ def repeat(folder, into, work, tell=lambda done, total: None):
 def _truth(original, key_file):
     """Truth of a set, each case with the draw that makes it again."""
     if original.has("truth.json"):
-        truth = original.read("truth.json")
+        truth = original.truth()
     elif original.has("truth.sealed") and key_file:
-        truth = unsealed(original, sealing.read_key(key_file))["truth"]
+        truth = checked_truth(unsealed(original, sealing.read_key(key_file))["truth"], original.folder / "truth.sealed")
     else:
         raise ConfigError(original.folder, "a published set, with its truth.json", "none",
                           "a sealed set is published once it is scored")
-    strange = [number for number, case in truth.items() if case.get("draw", {}).get("system") not in SYSTEMS]
+    strange = [number for number, case in truth.items() if not _is_draw(case.get("draw"))]
     if strange:
         raise ConfigError(original.folder / "truth.json", "draws of the generators of this program",
                           f"{len(strange)} cases without, such as {strange[0]}",
@@ -69,19 +71,27 @@ def _truth(original, key_file):
     return truth
 
 
+def _is_draw(draw):
+    """Whether these are the fields of a Draw, each of its type, of a system that is known."""
+    kinds = {"seed": int, "system": str, "kind": str, "hidden": list, "size": Real, "noise": Real}
+    return (isinstance(draw, dict) and draw.keys() == kinds.keys() and all(map(isinstance, draw.values(), [
+        kinds[key] for key in draw])) and draw["system"] in SYSTEMS and all(isinstance(h, str) for h in draw["hidden"]))
+
+
 def _make_cases(folder, truth, work, tell):
     """Cases of a truth in a folder, each whole or not at all; those that are there stay."""
     done = iter(range(1, len(truth) + 1))
-    half = folder / _HALF
+    half, cases = names.within(folder, _HALF), names.within(folder, "cases")
     half.mkdir(exist_ok=True)
-    (folder / "cases").mkdir(exist_ok=True)
-    work.map(partial(_make_case, folder / "cases", half), [(n, case["draw"]) for n, case in truth.items()],
+    cases.mkdir(exist_ok=True)
+    work.map(partial(_make_case, cases, half), [(n, case["draw"]) for n, case in truth.items()],
              lambda: tell(next(done), len(truth)))
 
 
 def _make_case(cases, half, item):
     number, draw = item
-    if not (cases / number).exists():
-        shutil.rmtree(half / number, ignore_errors=True)
-        SYSTEMS[draw["system"]].write(Draw.read(draw), half / number)
-        (half / number).rename(cases / number)
+    case, part = names.within(cases, number), names.within(half, number)
+    if not case.exists():
+        shutil.rmtree(part, ignore_errors=True)
+        SYSTEMS[draw["system"]].write(Draw.read(draw), part)
+        part.rename(case)

@@ -4,7 +4,7 @@ from datetime import UTC, datetime
 
 from pipeline.blind_trial.metrics.result import result
 from pipeline.blind_trial.protocol import code_digest, sealing
-from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, read_json, sha256
+from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, checked_truth, sha256
 from pipeline.blind_trial.protocol.solving import METHODS, check_cases, check_code, digest_of_case
 from pipeline.blind_trial.protocol.truth_format import check_truth
 from pipeline.contract.errors import ConfigError
@@ -19,7 +19,7 @@ def score(folder, key_file=None, truth_file=None):
     trial = TrialSet(folder)
     answers = _answers(trial)
     opened, key = _opened(trial, key_file) if trial.sealed else (None, None)
-    truth = opened["truth"] if opened else read_json(truth_file or trial.path("truth.json"))
+    truth = checked_truth(opened["truth"], trial.folder / "truth.sealed") if opened else trial.truth(truth_file)
     check_truth(trial, truth)
     if not trial.sealed:
         _check_current(trial, answers)

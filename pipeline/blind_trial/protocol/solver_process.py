@@ -17,8 +17,9 @@ import tempfile
 from pathlib import Path
 
 from pipeline.blind_trial.protocol.case_set import FILES
-from pipeline.contract.errors import BrakechainError
-from pipeline.environment import CACHE, ONE_THREAD, use_compiled_cache
+from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.received import confined, files
+from pipeline.environment import CACHE, ONE_THREAD, SAFE, use_compiled_cache
 
 #: what runs a diagnosis; baselines have a door of their own
 DIAGNOSIS = ("pipeline", "run", "nominal.yaml", "--run", "products", "--until", "diagnosis", "--workers", "1")
@@ -36,11 +37,15 @@ def command(method):
             *(DIAGNOSIS if method == "diagnosis" else ("pipeline.blind_trial.baselines", method)))
 
 
-def environment(home):
-    """All variables of the process: compiled code is shared, everything else lies in ``home``."""
+def environment(home, work=None):
+    """All variables of the process: compiled code is shared, everything else lies in ``home``, its case in ``work``.
+
+    What the case names has to be in ``work``: a case that came from elsewhere reads its own two files alone.
+    """
     use_compiled_cache()
     kept = {name: os.environ[name] for name in ("PATH", "LANG", CACHE) if name in os.environ}
-    return {**kept, **ONE_THREAD, "HOME": str(home), "TMPDIR": str(home),
+    only = {confined.VARIABLE: str(work)} if work else {}
+    return {**kept, **ONE_THREAD, **SAFE, **only, "HOME": str(home), "TMPDIR": str(home),
             "PYTHONPATH": str(_ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
 
 
@@ -56,12 +61,21 @@ def answered(case, method, limit):
         work.mkdir()
         home.mkdir()
         for name in FILES:
-            shutil.copyfile(case / name, work / name)
-        refusal = _run(command(method), work, environment(home), limit)
+            _copy(case / name, work / name)
+        refusal = _run(command(method), work, environment(home, work), limit)
         answer = _read(work / "products" / "diagnosis.json") if refusal is None else refusal
     finally:
         shutil.rmtree(here, ignore_errors=True)
     return {**answer, "cpu_seconds": round(_cpu_seconds() - before, 3)}
+
+
+def _copy(source, target):
+    """Copy a regular file; of a link, which may lead to any file, nothing is read."""
+    try:
+        with files.open_regular(source, links=False) as stream, target.open("wb") as copy:
+            shutil.copyfileobj(stream, copy)
+    except OSError as error:
+        raise ConfigError(source, "a regular file of the case", error.strerror or str(error)) from None
 
 
 def refused(reason):

@@ -19,7 +19,7 @@ def verify(folder):
     if not trial.has("result.json"):
         raise ConfigError(trial.folder, "a set that was scored", "no result.json",
                           f"run: brakechain trial score {trial.folder}")
-    truth, kept = trial.read("truth.json"), trial.read("answers.json")
+    truth, kept = trial.truth(), trial.read("answers.json")
     sentences = [*_sealing(trial, truth)] if trial.sealed else ["open set: nothing was sealed"]
     _check(sha256(canonical(kept["answers"])) == kept["digest"], trial, "answers.json is not what was solved")
     sentences.append(f"answers {kept['digest']} are unchanged")

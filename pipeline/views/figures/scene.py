@@ -4,16 +4,15 @@ OpenGL belongs to the machine, not to Python: where it is missing, VTK ends its 
 and VTK's own messages, away from the chain; the report then says that it has no such pictures.
 """
 
-import os
 import pickle
 import subprocess
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
+from pipeline.environment import of_children
 
 #: corner and mid-edge nodes that VTK needs of each cell type of meshio
 CELLS = {"hexahedron": (8, "HEXAHEDRON"), "hexahedron20": (20, "QUADRATIC_HEXAHEDRON"),
@@ -52,10 +51,8 @@ def render(scenes):
     """PNG bytes of each scene, WebP of those with frames, or None where this machine cannot draw (no OpenGL)."""
     if not scenes:
         return []
-    root = Path(__file__).resolve().parents[3]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(root), os.environ.get("PYTHONPATH", "")])}
-    child = subprocess.run([sys.executable, "-m", "pipeline.views.figures.scene"], input=pickle.dumps(scenes),
-                           capture_output=True, env=environment, check=False)
+    child = subprocess.run([sys.executable, "-P", "-m", "pipeline.views.figures.scene"], input=pickle.dumps(scenes),
+                           capture_output=True, env=of_children(), check=False)
     if child.returncode in (-11, -6, 139, 134):
         return None
     if child.returncode:

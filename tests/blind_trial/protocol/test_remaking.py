@@ -110,3 +110,45 @@ def test_from_the_command_line(tmp_path, generators):
     assert done.exit_code == 0 and (tmp_path / "b" / "cases" / "005").exists(), done.output
     done = CliRunner().invoke(cli, ["trial", "remake", str(tmp_path / "b"), str(tmp_path / "c"), "--key", "k"])
     assert done.exit_code == 2 and "--key is not needed" in done.output
+
+
+@pytest.mark.parametrize("number", ["foo/../../../victim", "{tmp}/victim", "..", "a\\b"])
+def test_keys_of_a_foreign_truth_lead_nowhere(tmp_path, generators, number):
+    made, victim = make(tmp_path / "a", seed=1), tmp_path / "victim"
+    victim.mkdir()
+    (victim / "file").write_text("mine")
+    truth = made.read("truth.json")
+    made.write("truth.json", {number.format(tmp=tmp_path): truth["001"]})
+    with pytest.raises(ConfigError, match="expected a name of letters, digits"):
+        remaking.repeat(made.folder, tmp_path / "new", InProcess())
+    with pytest.raises(ConfigError, match="expected a name of letters, digits"):
+        remaking.restore(made.folder, InProcess())
+    assert (victim / "file").read_text() == "mine" and not (tmp_path / "new").exists()
+
+
+def test_links_in_a_foreign_set_lead_nowhere(tmp_path, generators):
+    made, victim = make(tmp_path / "a", seed=1), tmp_path / "victim"
+    (victim / "001").mkdir(parents=True)
+    shutil.rmtree(made.folder / "cases")
+    (made.folder / ".remaking").symlink_to(victim)
+    with pytest.raises(ConfigError, match="expected a path inside"):
+        remaking.restore(made.folder, InProcess())
+    (made.folder / ".remaking").unlink()
+    (made.folder / "cases").symlink_to(victim)
+    with pytest.raises(ConfigError, match="expected a path inside"):
+        remaking.restore(made.folder, InProcess())
+    (made.folder / "answers").symlink_to(victim)
+    with pytest.raises(ConfigError, match="expected a path inside"):
+        made.write("answers/001.json", {})
+    assert [path.name for path in victim.rglob("*")] == ["001"]
+
+
+@pytest.mark.parametrize("content, told", [
+    ("[]", "expected a mapping"), ('{"001": 7}', "001: expected a mapping"),
+    ('{"001": {"draw": []}}', "1 cases without"),
+    ('{"001": {"draw": {"system": "toy", "seed": "1"}}}', "1 cases without"), ("[" * 100_000, "a readable JSON file")])
+def test_a_truth_of_no_form(tmp_path, generators, content, told):
+    made = make(tmp_path / "a", seed=1)
+    (made.folder / "truth.json").write_text(content)
+    with pytest.raises(ConfigError, match=told):
+        remaking.repeat(made.folder, tmp_path / "new", InProcess())

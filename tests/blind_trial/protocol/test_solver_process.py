@@ -43,7 +43,8 @@ def test_a_solver_sees_two_files_a_clean_environment_and_no_path_of_the_set(tmp_
     assert seen["files"] == ["nominal.yaml", "recordings.h5"] and seen["nominal"] == "# 002\n"
     assert seen["around"] == ["home", "work"] and seen["kept"] == []
     assert set(seen["environment"]) <= {"PATH", "LANG", "NUMBA_CACHE_DIR", "HOME", "TMPDIR", "PYTHONPATH",
-                                        "PYTHONDONTWRITEBYTECODE", "LC_CTYPE", *solver_process.ONE_THREAD}
+                                        "PYTHONDONTWRITEBYTECODE", "LC_CTYPE", "BRAKECHAIN_ONLY",
+                                        *solver_process.ONE_THREAD, *solver_process.SAFE}
     assert seen["home"] != str(Path.home()) and Path(seen["cwd"]).parent == Path(seen["home"]).parent
     told = json.dumps(seen)
     assert key.decode() not in told and "telling_name" not in told and str(tmp_path) not in told and "002/" not in told
