@@ -88,7 +88,8 @@ def _check_size(where, extent, units):
         return
     others = [name for name, length in LENGTH.items() if low <= length * extent <= high]
     raise ConfigError(where, f"a part of {low:g} to {high:g} m", f"{LENGTH[units] * extent:.4g} m with mesh_units:"
-                      f" {units}", f"declare mesh_units: {' or '.join(others)}" if others else "check the units of the mesh")
+                      f" {units}",
+                      f"declare mesh_units: {' or '.join(others)}" if others else "check the units of the mesh")
 
 
 def _check_jacobians(where, node, kind, rows, cells):
