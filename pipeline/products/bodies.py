@@ -9,7 +9,8 @@ class Body:
 
     node: Array = quantity("m", "nodes xyz", "node positions")
     element: Array = count("elements vertex", "node numbers of each element, order of meshio")
-    kind: Array = text("", "meshio cell type of the elements: hexahedron20 or hexahedron27")
+    kind: Array = text("", "meshio cell type of the elements, or mixed: rows of shorter cells repeat"
+                              " their first vertex")
     element_material: Array = count("elements", "row of the material table")
     material_name: Array = text("material", "material names")
     density: Array = quantity("kg/m^3", "material", "density")

@@ -15,7 +15,8 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
-from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, read_mesh, revolve
+from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
+from pipeline.physics.fem.mesh_file import read_mesh
 from pipeline.systems.disc_brake_bracket import bracket
 from pipeline.systems.disc_brake_joints import joints, piston_rows
 from pipeline.systems.disc_brake_piston import FluidColumn, bore, fluid_column, piston
@@ -57,7 +58,8 @@ def build(parameters):
 
 def disc(parameters):
     """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts."""
-    mesh = read_mesh(parameters.mesh_file) if parameters.mesh_file else disc_mesh(parameters)
+    p = parameters
+    mesh = read_mesh(p.mesh_file, p.mesh_units) if p.mesh_file else disc_mesh(p)
     elasticity = isotropic(parameters.young, parameters.poisson)
     return Solid(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([parameters.density]),
                        elasticity[None], parameters.damping_ratio, clamped_nodes(mesh, parameters),

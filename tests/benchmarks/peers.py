@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from pipeline.physics.fem.elasticity import reference_vertices
+from pipeline.physics.fem.reference_cells import reference_vertices
 from tests.benchmarks import kernels
 
 #: corners of a cube in the order of meshio

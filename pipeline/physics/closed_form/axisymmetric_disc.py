@@ -8,7 +8,8 @@ Finite Element Method, volume 2, semi-analytical method).
 import numpy as np
 import scipy
 
-from pipeline.physics.fem.elasticity import isotropic, quadrature, shape_functions
+from pipeline.physics.fem.elasticity import isotropic
+from pipeline.physics.fem.reference_cells import quadrature, shape_functions
 
 _KIND = "quad9"
 

@@ -1,29 +1,19 @@
-"""Linear elasticity on hexahedra: stiffness, mass and the matrices of rotation.
+"""Linear elasticity on hexahedra, tetrahedra and wedges: stiffness, mass and the matrices of rotation.
 
-Shape functions and quadrature are scikit-fem's; the element matrices are formed in batches and
-summed node block by node block. Degree of freedom = 3 node + axis; strains in the order
-xx yy zz yz xz xy (shear as engineering strain); vertices in the order of meshio.
+Element matrices are formed in batches and summed node block by node block. Degree of freedom =
+3 node + axis; strains in the order xx yy zz yz xz xy (shear as engineering strain); vertices in the
+order of meshio; cells of several kinds as ``reference_cells`` describes them.
 """
 
-from functools import cache
+from functools import wraps
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.elastic_constants import shear_modulus
+from pipeline.physics.fem.reference_cells import by_kind, quadrature, shape_functions
 
-#: corners, edge middles, face middles, centre of the reference cube 0..1, in the order of meshio
-_CUBE = np.array([
-    (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1),
-    (.5, 0, 0), (1, .5, 0), (.5, 1, 0), (0, .5, 0), (.5, 0, 1), (1, .5, 1), (.5, 1, 1), (0, .5, 1),
-    (0, 0, .5), (1, 0, .5), (1, 1, .5), (0, 1, .5),
-    (0, .5, .5), (1, .5, .5), (.5, 0, .5), (.5, 1, .5), (.5, .5, 0), (.5, .5, 1), (.5, .5, .5)])
-_SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (.5, 0), (1, .5), (.5, 1), (0, .5), (.5, .5)])
-#: meshio cell type -> (scikit-fem element, reference vertices, order of quadrature)
-_ELEMENT = {"hexahedron": ("ElementHex1", _CUBE[:8], 3), "hexahedron20": ("ElementHexS2", _CUBE[:20], 5),
-            "hexahedron27": ("ElementHex2", _CUBE, 5), "quad": ("ElementQuad1", _SQUARE[:4], 3),
-            "quad8": ("ElementQuadS2", _SQUARE[:8], 5), "quad9": ("ElementQuad2", _SQUARE, 5)}
 #: share of the 2 x 2 x 2 points in the stiffness: they let thin parts bend freely, the rest holds hourglass shapes
 _REDUCED_SHARE = {"hexahedron20": 0.95}
 _REDUCED_ORDER = 3
@@ -53,6 +43,19 @@ def orthotropic(young, poisson, shear):
     return np.linalg.inv(compliance)
 
 
+def _each_kind(function):
+    """``function`` (node, element, kind, material, ...) of a mesh with cells of several kinds: the sum over them."""
+    @wraps(function)
+    def summed(node, element, kind, material, *rest):
+        parts = [function(node, cells, each, np.asarray(material)[rows], *rest)
+                 for each, rows, cells in by_kind(kind, element)]
+        if isinstance(parts[0], tuple):
+            return tuple(sum(same[1:], same[0]) for same in zip(*parts, strict=True))
+        return sum(parts[1:], parts[0])
+    return summed
+
+
+@_each_kind
 def assemble(node, element, kind, material, density, elasticity):
     """Stiffness and consistent mass of an elastic body.
 
@@ -60,7 +63,7 @@ def assemble(node, element, kind, material, density, elasticity):
     ----------
     node : (n, 3) array [m]
     element : (e, v) integer array, vertices in the order of meshio
-    kind : "hexahedron", "hexahedron20" or "hexahedron27"
+    kind : "hexahedron", "hexahedron20", "hexahedron27", "tetra10", "wedge15" or "mixed"
     material : (e,) integer array, row of the two tables
     density : (m,) array [kg/m^3]
     elasticity : (m, 6, 6) array [Pa]
@@ -90,6 +93,7 @@ def assemble(node, element, kind, material, density, elasticity):
     return sum_blocks(stiffness, element, len(node)), _sum_scalars(mass, element, len(node))
 
 
+@_each_kind
 def gyroscopic(node, element, kind, material, density):
     """Matrices of a body that turns about z, seen from the frame at rest.
 
@@ -113,6 +117,7 @@ def gyroscopic(node, element, kind, material, density):
     return _sum_scalars(whirl, element, len(node)), _sum_scalars(convective, element, len(node))
 
 
+@_each_kind
 def centrifugal_load(node, element, kind, material, density):
     """(3n,) nodal forces of rotation about z per squared speed [N s^2]: int rho N (x, y, 0) dV."""
     def loads(gradient, shape, volume, rows):
@@ -125,6 +130,7 @@ def centrifugal_load(node, element, kind, material, density):
     return load.ravel()
 
 
+@_each_kind
 def geometric_stiffness(node, element, kind, material, elasticity, displacement):
     """Stiffness (3n, 3n) CSR of the stresses under a (3n,) displacement: int dN_a . sigma dN_b dV.
 
@@ -142,44 +148,6 @@ def geometric_stiffness(node, element, kind, material, elasticity, displacement)
         return (np.einsum("eq,eqai,eqij,eqbj->eab", volume, gradient, stress, gradient, optimize=True),)
 
     return _sum_scalars(_element_matrices(node, element, kind, matrices)[0], element, len(node))
-
-
-def reference_vertices(kind):
-    """(v, d) vertices of the reference cube or square 0..1; ConfigError for a cell type not served."""
-    if kind not in _ELEMENT:
-        raise ConfigError("mesh", f"cells of type {', '.join(_ELEMENT)}", repr(kind),
-                          "mesh with hexahedra of first or second order")
-    return _ELEMENT[kind][1]
-
-
-def shape_functions(kind, point):
-    """Shape functions (p, v) and their gradients (p, v, d) at (p, d) points of the reference cell."""
-    finite, order = _finite_element(kind)
-    columns = np.ascontiguousarray(np.asarray(point, float).T)
-    values = [finite.lbasis(columns, i) for i in order]
-    shape = [np.broadcast_to(value, columns.shape[1]) for value, _ in values]
-    gradient = [np.broadcast_to(np.array(slope), columns.shape) for _, slope in values]
-    return np.array(shape).T, np.array(gradient).transpose(2, 0, 1)
-
-
-@cache
-def quadrature(kind, order=None):
-    """Gauss points (q, d) and weights (q,) of the reference cell, sum of weights 1."""
-    from skfem.quadrature import get_quadrature
-
-    point, weight = get_quadrature(_finite_element(kind)[0], order or _ELEMENT[kind][2])
-    return point.T, weight
-
-
-@cache
-def _finite_element(kind):
-    """scikit-fem's element, and its number of each vertex in the order of meshio."""
-    from skfem import element
-
-    vertices = reference_vertices(kind)
-    finite = getattr(element, _ELEMENT[kind][0])()
-    distance = np.abs(finite.doflocs[None] - vertices[:, None]).sum(axis=2)
-    return finite, np.argmin(distance, axis=1)
 
 
 def _element_matrices(node, element, kind, matrices, order=None):

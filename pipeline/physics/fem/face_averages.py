@@ -8,8 +8,9 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.fem.elasticity import quadrature, shape_functions, sum_blocks
-from pipeline.physics.fem.mesh import face_kind
+from pipeline.physics.fem.elasticity import sum_blocks
+from pipeline.physics.fem.mesh import face_kind, face_normals
+from pipeline.physics.fem.reference_cells import MIXED_FACES, by_kind, quadrature, shape_functions
 
 _CANDIDATES = 9
 _NEWTON_STEPS = 12
@@ -20,9 +21,12 @@ _SLACK = 1e-6
 def face_points(node, face, count=None):
     """Gauss points (f, q, 3) [m] of the faces and the area (f, q) [m^2] that each stands for.
 
-    ``count``: points per direction of quadrilateral faces; by default as many as the kind of face asks for.
+    ``count``: points per direction of quadrilateral faces; by default as many as the kind of face asks for. Faces are
+    of one kind, else ConfigError.
     """
     kind = face_kind(face)
+    if kind == MIXED_FACES:
+        raise ConfigError("surface", "faces of one kind", "triangles and quadrilaterals")
     point, weight = quadrature(kind, count and 2 * count - 1)
     shape, gradient = shape_functions(kind, point)
     tangent = np.einsum("fvx,qvr->fqrx", node[face], gradient)
@@ -36,22 +40,40 @@ def interpolation(node, face, point, where="surface point", distance=1e-6, slack
     ``distance`` [m] is how far off the surface a point may lie, ``slack`` how far beside its face, in sizes of the
     face; farther raises ConfigError.
     """
-    kind, tree = face_kind(face), scipy.spatial.cKDTree(node[face[:, :4]].mean(axis=1))
-    nearest = np.full(len(point), -1)
-    local = np.zeros((len(point), 2))
+    nearest, weight = np.full(len(point), -1), np.zeros((len(point), face.shape[1]))
+    for kind, rows, cells in by_kind(face_kind(face), face):
+        left = np.flatnonzero(nearest < 0)
+        at, local = _nearest(node, cells, kind, point[left], distance, slack)
+        on = at >= 0
+        nearest[left[on]] = rows[at[on]]
+        weight[left[on], :cells.shape[1]] = shape_functions(kind, local[on])[0]
+    if (nearest < 0).any():
+        raise ConfigError(where, "a point on the surface", f"{point[np.argmin(nearest)]} m, off it",
+                          "check radii, angles and heights")
+    return nearest, weight
+
+
+def _nearest(node, face, kind, point, distance, slack):
+    """Face (p,) of one kind below each (p, 3) point, -1 for none, and its reference coordinates (p, 2) there."""
+    tree = scipy.spatial.cKDTree(face_normals(node, face)[1])
+    nearest, local = np.full(len(point), -1), np.zeros((len(point), 2))
     candidates = tree.query(point, k=min(_CANDIDATES, len(face)))[1].reshape(len(point), -1)
     for candidate in candidates.T:
         missing = np.flatnonzero(nearest < 0)
         if not len(missing):
             break
         inner, gap = _project(node[face[candidate[missing]]], kind, point[missing])
-        inside = (np.abs(inner - 0.5).max(axis=1) < 0.5 + slack) & (gap < distance)
+        inside = _inside(kind, inner, slack) & (gap < distance)
         nearest[missing[inside]] = candidate[missing[inside]]
         local[missing[inside]] = inner[inside]
-    if (nearest < 0).any():
-        raise ConfigError(where, "a point on the surface", f"{point[np.argmin(nearest)]} m, off it",
-                          "check radii, angles and heights")
-    return nearest, shape_functions(kind, local)[0]
+    return nearest, local
+
+
+def _inside(kind, local, slack):
+    """True where reference coordinates (p, 2) lie in the face."""
+    if kind == "triangle6":
+        return (local.min(axis=1) > -slack) & (local.sum(axis=1) < 1 + slack)
+    return np.abs(local - 0.5).max(axis=1) < 0.5 + slack
 
 
 def surface_rows(node, face, point, weight, group, where="surface point", distance=1e-6):

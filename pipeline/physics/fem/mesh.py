@@ -1,19 +1,28 @@
-"""Hexahedral meshes: a masked lattice of revolution, a Cartesian block, and files that meshio reads."""
+"""Meshes: a masked lattice of revolution, a Cartesian block, and the faces of any."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.fem.elasticity import reference_vertices
+from pipeline.physics.fem.reference_cells import (
+    MIXED,
+    MIXED_FACES,
+    by_kind,
+    cell_faces,
+    padded,
+    reference_vertices,
+)
 
-_FACE_OF = {"hexahedron": "quad", "hexahedron20": "quad8", "hexahedron27": "quad9"}
 _TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """Nodes (n, 3) [m], elements (e, v) in the order of meshio, and their lattice cell (e, 3)."""
+    """Nodes (n, 3) [m], elements (e, v) in the order of meshio, and their lattice cell (e, 3).
+
+    ``kind``: a cell type of meshio, or "mixed" as ``reference_cells`` describes it.
+    """
 
     node: np.ndarray
     element: np.ndarray
@@ -74,52 +83,44 @@ def _lattice(lines, mask, kind, place, closed):
     return Mesh(node, element.reshape(index.shape[:2]), kind, cell)
 
 
-def read_mesh(path):
-    """Mesh of a file that meshio reads; one type of hexahedra, coordinates in metres.
-
-    Raises ConfigError for an unreadable file, other cells or none.
-    """
-    import meshio
-
-    try:
-        read = meshio.read(path)
-    except (OSError, SystemExit, meshio.ReadError, ValueError) as error:
-        raise ConfigError(f"mesh file {path}", "a mesh that meshio can read", str(error) or "none") from None
-    solid = [b for b in read.cells if b.dim == 3]
-    kinds = {b.type for b in solid}
-    if len(kinds) != 1 or not kinds <= set(_FACE_OF):
-        raise ConfigError(f"mesh file {path}", f"cells of one type out of {', '.join(_FACE_OF)}",
-                          ", ".join(sorted(kinds)) or "no solid cells")
-    element = np.concatenate([b.data for b in solid])
-    used, compact = np.unique(element, return_inverse=True)
-    return Mesh(np.asarray(read.points[used], float), compact.reshape(element.shape), kinds.pop(),
-                np.zeros((len(element), 3), int))
+def joined(blocks):
+    """(kind, (e, v) elements) of one mesh with the ``blocks`` [(kind, (c, v) elements)], padded where kinds differ."""
+    kinds = {kind for kind, _ in blocks}
+    if len(kinds) == 1:
+        return kinds.pop(), np.concatenate([element for _, element in blocks])
+    width = len(reference_vertices("hexahedron20"))
+    return MIXED, np.concatenate([padded(element, width) for _, element in blocks])
 
 
 def boundary_faces(mesh):
     """(f, v) nodes of the faces that belong to one element only, corners anticlockwise seen from outside."""
-    square, cube = reference_vertices(_FACE_OF[mesh.kind]), reference_vertices(mesh.kind)
-    faces = np.concatenate([mesh.element[:, _face_vertices(square, cube, axis, side)]
-                            for axis in range(3) for side in (0, 1)])
-    _, group, times = np.unique(np.sort(faces[:, :4], axis=1), axis=0, return_inverse=True, return_counts=True)
+    faces = [cells[:, face] for kind, _, cells in by_kind(mesh.kind, mesh.element) for face in cell_faces(kind)]
+    width = max(face.shape[1] for face in faces)
+    faces = np.concatenate([padded(face, width) for face in faces])
+    key = corners(faces)
+    key[key[:, 3] == key[:, 0], 3] = -1
+    key = np.sort(key, axis=1)
+    _, group, times = np.unique(key, axis=0, return_inverse=True, return_counts=True)
     return faces[times[group.ravel()] == 1]
 
 
 def face_kind(face):
-    """meshio cell type of (f, v) faces."""
-    return {4: "quad", 8: "quad8", 9: "quad9"}[face.shape[1]]
+    """Cell type of (f, v) faces."""
+    if face.shape[1] == 8 and (face[:, 6:] == face[:, :1]).all(axis=1).any():
+        return MIXED_FACES
+    return {4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}[face.shape[1]]
+
+
+def corners(face):
+    """(f, 4) corners of faces, of triangles the first one twice."""
+    triangle = (face[:, 6:] == face[:, :1]).all(axis=1) if face.shape[1] in (6, 8) else np.zeros(len(face), bool)
+    return np.where(triangle[:, None], face[:, [0, 1, 2, 0]], face[:, :4])
 
 
 def face_normals(node, face):
     """(f, 3) unit normals at the middle of the faces, outwards, and (f, 3) middles [m]."""
-    corner = node[face[:, :4]]
+    rows = corners(face)
+    corner, triangle = node[rows], rows[:, 3] == rows[:, 0]
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
-    return normal / np.linalg.norm(normal, axis=1, keepdims=True), corner.mean(axis=1)
-
-
-def _face_vertices(square, cube, axis, side):
-    """Vertices of one face of the cube; its two axes are ordered so that the normal points outwards."""
-    first, second = ((axis + 1) % 3, (axis + 2) % 3)[::1 if side else -1]
-    place = np.full((len(square), 3), float(side))
-    place[:, first], place[:, second] = square.T
-    return [int(np.argmin(np.abs(cube - p).sum(axis=1))) for p in place]
+    middle = np.where(triangle[:, None], corner[:, :3].mean(axis=1), corner.mean(axis=1))
+    return normal / np.linalg.norm(normal, axis=1, keepdims=True), middle

@@ -11,7 +11,7 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.elastic_constants import plane_strain_modulus
-from pipeline.physics.fem.elasticity import quadrature, reference_vertices, shape_functions
+from pipeline.physics.fem.reference_cells import quadrature, reference_vertices, shape_functions
 
 _KIND = "quad9"
 

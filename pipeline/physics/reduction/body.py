@@ -12,7 +12,7 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, centrifugal_load, geometric_stiffness, gyroscopic
-from pipeline.physics.fem.mesh import Mesh, boundary_faces
+from pipeline.physics.fem.mesh import Mesh, boundary_faces, corners
 from pipeline.physics.fem.supports import free_freedoms
 from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.reduction.craig_bampton import (
@@ -156,10 +156,10 @@ def rotation(body, free, factor):
 
 def _surface(body, free, shape):
     """Corner nodes of the boundary faces, the faces on them, and their displacement per coordinate (float32)."""
-    corners = boundary_faces(Mesh(body.node, body.element, body.kind, np.zeros((len(body.element), 3), int)))[:, :4]
-    visible, face = np.unique(corners, return_inverse=True)
+    faces = boundary_faces(Mesh(body.node, body.element, body.kind, np.zeros((len(body.element), 3), int)))
+    visible, face = np.unique(corners(faces), return_inverse=True)
     row_of = np.full(3 * len(body.node), -1)
     row_of[free] = np.arange(len(free))
     rows = row_of[3 * visible[:, None] + np.arange(3)]
     recovery = np.where((rows >= 0)[..., None], shape[rows], 0.0).astype(np.float32)
-    return body.node[visible], face.reshape(corners.shape), recovery
+    return body.node[visible], face.reshape(-1, 4), recovery

@@ -16,7 +16,10 @@ from pipeline.environment import of_children
 
 #: corner and mid-edge nodes that VTK needs of each cell type of meshio
 CELLS = {"hexahedron": (8, "HEXAHEDRON"), "hexahedron20": (20, "QUADRATIC_HEXAHEDRON"),
-         "hexahedron27": (20, "QUADRATIC_HEXAHEDRON"), "quad": (4, "QUAD")}
+         "hexahedron27": (20, "QUADRATIC_HEXAHEDRON"), "quad": (4, "QUAD"), "tetra10": (10, "QUADRATIC_TETRA"),
+         "wedge15": (15, "QUADRATIC_WEDGE")}
+#: kinds of a mixed body, whose shorter cells repeat their first vertex
+_MIXED = ("tetra10", "wedge15", "hexahedron20")
 
 #: ms that one period of an animation takes
 _PERIOD = 1600
@@ -28,7 +31,7 @@ class Solid:
 
     points: np.ndarray          # (point, xyz) in m, already displaced
     cells: np.ndarray           # (cell, vertex)
-    kind: str                   # key of CELLS
+    kind: str                   # key of CELLS, or mixed
     scalar: np.ndarray | None = None    # (point,), -1 ... 1
     colour: str = "#9aa3ad"
     edges: bool = False
@@ -83,8 +86,7 @@ def draw(scene):
 
 
 def _add(plotter, solid, pyvista):
-    vertices, name = CELLS[solid.kind]
-    cells = {pyvista.CellType[name]: solid.cells[:, :vertices]}
+    cells = {pyvista.CellType[CELLS[kind][1]]: each[:, :CELLS[kind][0]] for kind, each in _blocks(solid)}
     grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points, dtype=float))
     scalar = solid.scalar if solid.motion is None else solid.motion[:, 2].real / solid.limit
     if scalar is not None:
@@ -97,6 +99,14 @@ def _add(plotter, solid, pyvista):
     else:
         plotter.add_mesh(skin, scalars="colour", cmap="PuOr_r", clim=(-1, 1), show_scalar_bar=False, **look)
     return skin
+
+
+def _blocks(solid):
+    """[(kind, cells)] of a solid."""
+    if solid.kind != "mixed":
+        return [(solid.kind, solid.cells)]
+    count = np.array([next(n for n in (10, 15, 20) if (row[n:] == row[0]).all()) for row in solid.cells])
+    return [(kind, solid.cells[count == CELLS[kind][0]]) for kind in _MIXED if (count == CELLS[kind][0]).any()]
 
 
 def _move(solid, skin, phase):

@@ -1,7 +1,8 @@
-"""Hexahedra: patch test, null space, rotation matrices against closed forms, clear errors."""
+"""Hexahedra, tetrahedra, wedges: patch test, null space, rotation matrices against closed forms, clear errors."""
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import (
@@ -13,18 +14,30 @@ from pipeline.physics.fem.elasticity import (
     orthotropic,
 )
 from pipeline.physics.fem.mesh import block, revolve
+from pipeline.physics.fem.supports import free_modes
 from pipeline.physics.numerics.sparse_solver import available, factorise
+from tests.physics.fem.mixed_meshes import cut
 
 pytestmark = pytest.mark.exact
-KINDS = ("hexahedron", "hexahedron20", "hexahedron27")
+LATTICES = ("hexahedron", "hexahedron20", "hexahedron27")
+KINDS = (*LATTICES, "tetra10", "wedge15", "mixed")
 MATERIAL = orthotropic((6e9, 5e9, 1.5e9), (0.2, 0.22, 0.25), (1.2e9, 1.1e9, 2.5e9))
 
 
+def box(*lines, kind):
+    return block(*lines, kind=kind) if kind in LATTICES else cut(block(*lines, kind="hexahedron27"), kind)
+
+
 def skewed_block(kind):
-    mesh = block(np.linspace(0, 1, 3), np.linspace(0, 0.8, 3), np.linspace(0, 0.5, 3), kind=kind)
+    """Inner nodes out of place: of tetrahedra and linear hexahedra each by itself; edges of wedges stay straight."""
+    mesh = box(np.linspace(0, 1, 3), np.linspace(0, 0.8, 3), np.linspace(0, 0.5, 3), kind=kind)
     x, y, z = mesh.node.T
     warp = 0.06 * np.sin(np.pi * x) * np.sin(np.pi * y / 0.8) * np.sin(np.pi * z / 0.5)
-    return type(mesh)(mesh.node + warp[:, None] * (kind == "hexahedron"), mesh.element, kind, mesh.cell)
+    if kind == "wedge15":
+        warp = 0.06 * (1 - abs(2 * x - 1)) * (1 - abs(y / 0.4 - 1))
+        warp = warp[:, None] * (0, 0, 1) * (1 - abs(z / 0.25 - 1))[:, None]
+        return type(mesh)(mesh.node + warp, mesh.element, kind, mesh.cell)
+    return type(mesh)(mesh.node + warp[:, None] * (kind in ("hexahedron", "tetra10")), mesh.element, kind, mesh.cell)
 
 
 def matrices(mesh, density=2500.0, material=MATERIAL):
@@ -45,12 +58,46 @@ def test_patch_of_constant_strain(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_only_six_motions_are_free_of_energy(kind):
-    mesh = block(np.linspace(0, 2, 3), np.array([0, 1.0]), np.array([0, 0.7]), kind=kind)
+    mesh = box(np.linspace(0, 2, 3), np.array([0, 1.0]), np.array([0, 0.7]), kind=kind)
     stiffness, mass = matrices(mesh)
     value = np.linalg.eigvalsh(stiffness.toarray())
     assert value[5] < 1e-9 * value[-1] < 1e-5 * value[-1] < value[6]
     assert mass.sum() == pytest.approx(3 * 2500 * 1.4)
     assert np.linalg.eigvalsh(mass.toarray())[0] > 0
+
+
+@pytest.mark.parametrize("kind", ["tetra10", "wedge15", "mixed"])
+def test_mass_of_a_curved_body(kind):
+    """A quarter of a ring, its arcs parabolas: the volume converges to pi / 4 (R^2 - r^2) h with the fourth power."""
+    error = []
+    for cells in (2, 4):
+        lines = np.array([0.8, 1.0]), np.linspace(0, np.pi / 2, cells + 1), np.array([0, 0.3])
+        ring = revolve(*lines, kind="hexahedron27")
+        _, mass = matrices(cut(ring, kind), 1.0)
+        error.append(abs(mass.sum() / 3 / (np.pi / 4 * 0.36 * 0.3) - 1))
+    assert error[1] < 1e-4 and np.log2(error[0] / error[1]) == pytest.approx(4, abs=0.3)
+
+
+@pytest.mark.parametrize("kind", ["tetra10", "wedge15"])
+def test_frequencies_of_a_bar_converge_with_the_fourth_power(kind):
+    """Longitudinal waves of a bar without contraction, f = k c / 2 L, free at both ends."""
+    error = []
+    for cells in (2, 4):
+        mesh = box(np.linspace(0, 1, cells + 1), np.array([0, 0.1]), np.array([0, 0.1]), kind=kind)
+        stiffness, mass = (a.toarray()[::3, ::3] for a in matrices(mesh, 1.0, isotropic(1.0, 0.0)))
+        frequency = np.sqrt(np.abs(scipy.linalg.eigvalsh(stiffness, mass)[:2])) / (2 * np.pi)
+        error.append(frequency[1] / 0.5 - 1)
+    assert 0 < error[1] < 2e-3 and np.log2(error[0] / error[1]) == pytest.approx(4, abs=0.4)
+
+
+@pytest.mark.parametrize("kind", ["tetra10", "wedge15", "hexahedron20"])
+def test_bending_of_a_slender_beam(kind):
+    """First bending frequency of a free beam of Euler and Bernoulli; shear and rotary inertia take less than 1 %."""
+    mesh = box(np.linspace(0, 1, 9), np.array([-0.02, 0.02]), np.array([-0.02, 0.02]), kind=kind)
+    pair = matrices(mesh, 1000.0, isotropic(1e9, 0.0))
+    frequency, _ = free_modes(*pair, available()[0], 60.0, "beam")
+    exact = 4.7300407**2 / (2 * np.pi) * np.sqrt(1e9 * 0.04**2 / 12 / 1000.0)
+    assert frequency[0] == pytest.approx(exact, rel=0.01)
 
 
 def test_orthotropic_is_isotropic_when_equal_and_refuses_negative_energy():

@@ -1,12 +1,12 @@
-"""Lattices: counts, outward faces, masks; files through meshio; clear errors."""
+"""Lattices: counts, outward faces, masks, of all kinds of cells; clear errors."""
 
-import meshio
 import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import face_points
-from pipeline.physics.fem.mesh import block, boundary_faces, divided, face_normals, read_mesh, revolve
+from pipeline.physics.fem.mesh import block, boundary_faces, corners, divided, face_normals, revolve
+from tests.physics.fem.mixed_meshes import cut
 
 pytestmark = pytest.mark.exact
 LINES = np.linspace(0.1, 0.2, 3), np.linspace(0, 2 * np.pi, 13), np.linspace(-0.01, 0.01, 3)
@@ -40,21 +40,19 @@ def test_middle_nodes_lie_on_the_circle():
     assert np.unique(radius.round(9)) == pytest.approx([0.1, 0.125, 0.15, 0.175, 0.2])
 
 
-def test_file_round_trip(tmp_path):
-    mesh = block(*[np.linspace(0, 1, 3)] * 3)
-    meshio.Mesh(mesh.node, [(mesh.kind, mesh.element)]).write(tmp_path / "body.vtu")
-    read = read_mesh(tmp_path / "body.vtu")
-    assert read.kind == mesh.kind
-    assert np.array_equal(read.node[read.element], mesh.node[mesh.element])
-
-
-def test_other_cells_are_refused(tmp_path):
-    meshio.Mesh(np.eye(4, 3), [("tetra", [[0, 1, 2, 3]])]).write(tmp_path / "tetra.vtu")
-    with pytest.raises(ConfigError, match="hexahedron20.*tetra"):
-        read_mesh(tmp_path / "tetra.vtu")
-    (tmp_path / "broken.vtu").write_text("no mesh")
-    with pytest.raises(ConfigError, match="broken.vtu"):
-        read_mesh(tmp_path / "broken.vtu")
+@pytest.mark.parametrize("kind", ["tetra10", "wedge15", "mixed"])
+def test_tetrahedra_wedges_and_both_have_the_surface_of_the_hexahedra(kind):
+    whole = revolve(*LINES, kind="hexahedron27")
+    mesh = cut(whole, kind)
+    face = boundary_faces(mesh)
+    normal, middle = face_normals(mesh.node, face)
+    corner = mesh.node[corners(face)]
+    area = np.linalg.norm(np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]), axis=1) / 2
+    square = whole.node[corners(boundary_faces(whole))]
+    flat = np.cross(square[:, 2] - square[:, 0], square[:, 3] - square[:, 1])
+    assert area.sum() == pytest.approx(np.linalg.norm(flat, axis=1).sum() / 2, rel=1e-9)
+    assert (area @ (normal * middle).sum(axis=1)) / 3 == pytest.approx(3 * (0.2**2 - 0.1**2) * 0.02, rel=1e-9)
+    assert set(np.unique(np.isin(np.arange(len(mesh.node)), face))) == {False, True}
 
 
 def test_negative_thickness_and_missing_bore_are_refused():
