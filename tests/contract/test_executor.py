@@ -110,7 +110,7 @@ from pipeline.contract.executor import LocalProcesses
 if __name__ == "__main__":
     work = LocalProcesses(2)
     work.map(abs, [1, 2], lambda: None)
-    threading.Timer(1.0, lambda: os.killpg(0, signal.SIGINT)).start()
+    threading.Timer(6.0, lambda: os.killpg(0, signal.SIGINT)).start()
     try:
         work.map(time.sleep, [60, 60], lambda: None)
     except KeyboardInterrupt:

@@ -9,11 +9,8 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.numerics.memory import refuse_beyond_memory
 
 CONSTRUCTION_NODES = 4
-#: arrays of the construction grid that are held at once
-_FIELDS = 8
 
 
 def turned_disc(nodes, length, shortest, rms_height, *, seed, feed, marks_share, roughness_wavelength, hurst,
@@ -88,10 +85,7 @@ def construction_size(length, shortest):
     """Nodes along the edge of the construction grid; ConfigError unless 0 < ``shortest`` <= ``length`` (m)."""
     if not 0.0 < shortest <= length:
         raise ConfigError("rough surface", "0 < shortest wavelength <= patch length", f"{shortest:g} m, {length:g} m")
-    size = float(np.ceil(CONSTRUCTION_NODES * length / shortest / 2.0)) * 2
-    refuse_beyond_memory(_FIELDS * 8 * size**2, f"rough surfaces of {size:.3g} x {size:.3g} nodes", "rough surface",
-                         "raise the shortest wavelength, or take a smaller patch")
-    return int(size)
+    return int(np.ceil(CONSTRUCTION_NODES * length / shortest / 2.0)) * 2
 
 
 def _pits(random, size, length, share, diameter):

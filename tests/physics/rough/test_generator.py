@@ -4,14 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.rough.generator import (
-    band_limit,
-    construction_size,
-    plateau_pad,
-    resample,
-    self_affine,
-    turned_disc,
-)
+from pipeline.physics.rough.generator import band_limit, plateau_pad, resample, self_affine, turned_disc
 
 LENGTH, SHORTEST = 1e-3, 62.5e-6
 DISC = {"seed": 1, "feed": 250e-6, "marks_share": 0.9, "roughness_wavelength": 250e-6, "hurst": 0.8,
@@ -102,8 +95,3 @@ def test_marks_shorter_than_the_surface_holds_are_refused(feed):
 def test_a_wavelength_beyond_the_patch_is_refused():
     with pytest.raises(ConfigError, match="shortest wavelength <= patch length"):
         turned_disc(64, LENGTH, 2e-3, 3e-6, **DISC)
-
-
-def test_a_surface_beyond_the_memory_is_refused_before_it_is_made():
-    with pytest.raises(ConfigError, match="GB for rough surfaces of .* nodes"):
-        construction_size(1e-2, 1e-9)
