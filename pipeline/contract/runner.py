@@ -178,8 +178,9 @@ class ChainRun:
 
         Returns the number of stages computed.
         """
-        if not os.access(self.folder, os.W_OK) and not any(state.reasons for state in self.plan(first, last, force)):
-            for state in self.plan(first, last, force):     # nothing to write: the folder may be read-only
+        planned = [] if os.access(self.folder, os.W_OK) else self.plan(first, last, force)
+        if planned and not any(state.reasons for state in planned):     # nothing to write: it may be read-only
+            for state in planned:
                 report(state, None)
             return 0
         with locked(self.folder):

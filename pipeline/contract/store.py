@@ -246,8 +246,9 @@ def _read_group(group, cls, path, file):
 
 def _member(group, name, path):
     """The member ``name`` of a group; refused where it takes its data from elsewhere."""
-    if hdf5.flaw(group, name):
-        raise _damaged(path, f"{name}: {hdf5.flaw(group, name)}")
+    told = hdf5.flaw(group, name)
+    if told:
+        raise _damaged(path, f"{name}: {told}")
     return group[name]
 
 

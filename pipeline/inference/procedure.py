@@ -166,8 +166,7 @@ class Asked:
             tried = replace(tried, objective=fit.objective, held_out=error)
             if left > self.settings.rules.decision.unexplained:
                 return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
-            calibration, results = asked.begun_together(single.null, fit.latent, last)
-            whole, why = asked.named_together(single, calibration, results, known)
+            whole, why = asked.named_together(single, fit.latent, last, known)
             for law in tuple(c for c in known if c.elaborate):
                 if whole is not None:
                     known = [*(c for c in known if c is not law), whole.named[0].candidate]
@@ -182,10 +181,9 @@ class Asked:
     def _weighed_beside(self, single, fit, law, known):
         """``named_together`` of one ``law`` of those whose Fit is given, the others ``known``: what is elaborate has
         rivals that are it nearly."""
-        asked, names = self.given(known), [p.name for p in fit.hypothesis.parameters]
+        names = [p.name for p in fit.hypothesis.parameters]
         start = fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
-        calibration, results = asked.begun_together(single.null, start, law)
-        return asked.named_together(single, calibration, results, known)
+        return self.given(known).named_together(single, start, law, known)
 
     def fitted_together(self, null, start, last):
         """Fit of the laws that are taken as known and of a Hypothesis ``last``, from latent values ``start`` of all, or
@@ -208,12 +206,12 @@ class Asked:
         return calibration, refitter.best_begun({}, {self.catalogue.index(last): [
             start, *tone_starts.starts(problem, calibration.null, last)]}, enough)
 
-    def named_together(self, single, calibration, results, known):
+    def named_together(self, single, start, last, known):
         """(Diagnosis that names one more law beside those ``known`` (Hypotheses) or None, why there is none).
 
-        ``results`` {index: Refitted} of the one that was selected; what it imitates is weighed too.
+        ``last``: the one that was selected, ``start``: latent values of all; what it imitates is weighed too.
         """
-        rules = self.settings.rules.decision
+        rules, (calibration, results) = self.settings.rules.decision, self.begun_together(single.null, start, last)
         screening = screen_catalogue(calibration, self.catalogue, self.settings, self.fan_out, True)
         refits = refit_from(screening, self.catalogue, results, self.settings, self.fan_out)
         whole = decided(refits, self.settings, single, len(known) + 1)

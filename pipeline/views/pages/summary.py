@@ -231,13 +231,18 @@ def _compared(products):
     return comparison if comparison is not None and len(comparison.row) else None
 
 
+def _own_brake(products):
+    """Whether this is a brake that no published study is about."""
+    return products.get("comparison") is None and products.get("structure") is not None
+
+
 def _sure(products):
     comparison, refined = _compared(products), products.get("convergence")
     converged = "" if refined is None else f"{convergence.statement(refined)} "
     for told in filter(None, (outside_computed(products), open_balance(products.get("multibody")))):
         converged += f"{told} "
-    if products.get("comparison") is None and products.get("structure") is not None:
-        return converged.strip()        # a brake of one's own
+    if _own_brake(products):
+        return converged.strip()
     if comparison is None:
         return f"{converged}There is no published result to compare with."
     within = judged(comparison, "within")
@@ -256,9 +261,7 @@ def _tuned(products, tuned_settings):
     if settings and comparison is not None and not rows:
         more += ". The comparison does not state on which facts, so some of the agreement is not evidence"
     if not shown:
-        if products.get("comparison") is None and products.get("structure") is not None:
-            return ""
-        return "Nothing in this case is marked as tuned."
+        return "" if _own_brake(products) else "Nothing in this case is marked as tuned."
     text = "; ".join(shown)
     return f"{text[:1].upper()}{text[1:]}{more}." if rows else f"{text}{more}."
 

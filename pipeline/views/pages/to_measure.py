@@ -33,14 +33,13 @@ _FIRST = 10
 def to_measure(case, products):
     """Tables of the values that decide the verdict of a brake and are defaults of the program, or assumed.
 
-    Ordered by what is known of their influence: growth rates that their scatter changes (product sensitivities), then
-    the share of the variance of the growth rate of the source that they belong to (probability), then what commonly
-    matters. Empty for systems without such values.
+    Ordered by what is known of their influence: the share of the variance of the growth rate of the source that they
+    belong to (probability), then what commonly matters. Empty for systems without such values.
     """
     rows = _rows(case)
     if not rows:
         return ()
-    known = _influence(products, [row[0] for row in rows])
+    known = _influence(products, rows)
     order = sorted(range(len(rows)), key=lambda k: (rows[k][3] != DEFAULT, *known[rows[k][0]][0], rows[k][5]))
     cells = [(rows[k][0], rows[k][2], rows[k][3], known[rows[k][0]][1]) for k in order]
     meanings = [rows[k][4] for k in order]
@@ -76,13 +75,12 @@ def _rows(case):
     return rows if "structure" in case.settings else []
 
 
-def _influence(products, names):
+def _influence(products, rows):
     """{name: ((class, -size), words)}: what is known of the influence of each value, the best known first."""
     probable, known = products.get("probability"), {}
     shares = {} if probable is None or not len(probable.value) else dict(
         zip(map(str, probable.source), map(float, probable.sensitivity), strict=True))
-    for name in names:
-        source = next(s for pattern, s in DECIDING if fnmatchcase(name, pattern))
+    for name, source, *_ in rows:
         size = shares.get(source, shares.get(source.partition(":")[0])) if source else None
         known[name] = ((1, 0.0), "—") if size is None else (
             (0, -max(size, 0.0)), f"{percent(max(size, 0.0), 2)} of the variance of the growth rate, with its group")
