@@ -190,7 +190,8 @@ def test_held_inputs_keep_their_samples_and_a_held_drive_is_refused():
 
 
 def test_band_limited_inputs_keep_their_samples_until_they_are_run():
-    run = recorded(recording(), laid_out(inputs={"shaker": {"channel": "force", "hold": "band_limited"}}))["level_2"].run
+    wired = {"shaker": {"channel": "force", "hold": "band_limited"}}
+    run = recorded(recording(), laid_out(inputs=wired))["level_2"].run
     assert run.band_limited == ("shaker",) and run.held == ()
     np.testing.assert_array_equal(run.inputs["shaker"], force(5.0, 1))
 

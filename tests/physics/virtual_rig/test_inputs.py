@@ -61,9 +61,8 @@ def test_a_force_of_few_samples_moves_and_accelerates_as_it_did():
 
 
 def test_inputs_that_are_not_named_are_straight_between_samples_beside_one_that_is():
-    two = Bench(lumps([1.0, 1.0], [[1.0, 0.0], [0.0, 1.0]], [100.0, 100.0], [0.4, 0.4]), Hard(), constant(0.0), 1e-2, ())
-    run = Run("two", 1.0, 10.0, {"input_0": np.arange(11.0) ** 2, "input_1": np.arange(11.0) ** 2},
-              band_limited=("input_0",))
+    two = Bench(lumps([1.0, 1.0], np.eye(2), [100.0, 100.0], [0.4, 0.4]), Hard(), constant(0.0), 1e-2, ())
+    run = Run("two", 1.0, 10.0, dict.fromkeys(("input_0", "input_1"), np.arange(11.0) ** 2), band_limited=("input_0",))
     finer, (smooth, straight) = resolved(two, run, 10)
     assert finer.samples == 101 and len(smooth) == len(straight) == 101
     np.testing.assert_allclose(straight, np.interp(finer.time, run.time, np.arange(11.0) ** 2))
