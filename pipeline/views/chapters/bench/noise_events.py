@@ -40,14 +40,13 @@ def counted(product):
     """The same, each squeal once, however many channels of its run have it at that time and frequency."""
     kept = np.array([], int)
     for event in squeals(product):
-        if not _same(product, event, kept).any():
-            kept = np.append(kept, event)
+        kept = kept if _same(product, event, kept).any() else np.append(kept, event)
     return kept
 
 
 def _same(product, event, others):
     """(k,) which of ``others`` (k,) are the squeal ``event`` in another channel."""
-    record, begin, low, high = (getattr(product, f"event_{name}") for name in ("record", "start", "lowest", "highest"))
+    record, begin, low, high = (getattr(product, f"event_{n}") for n in ("record", "start", "lowest", "highest"))
     end, run = begin + product.event_duration, product.record_run[record]
     return ((record[others] != record[event]) & (run[others] == run[event])
             & (np.maximum(begin[others], begin[event]) < np.minimum(end[others], end[event]))
@@ -93,14 +92,13 @@ def conclusion(product):
     return (f"{plural(len(rows), 'squeal event')} in {len(noisy)} of {plural(len(every), 'run')}"
             f" ({percent(len(noisy) / len(every), 2)}){_heard_by(product)}. The loudest:"
             f" {number(product.event_level[first], 3)} {_unit(product, product.event_record[first])} at"
-            f" {quantity(product.event_frequency[first], 'Hz', 4)} for {quantity(product.event_duration[first], 's', 2)},"
-            f" run {product.record_run[product.event_record[first]]}"
+            f" {quantity(product.event_frequency[first], 'Hz', 4)} for"
+            f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
             f"{_at(product, first)}.{_bands(product, rows)}{near_modes(product, rows)}"
             + (f" Told beside: {beside}." if beside else ""))
 
 
-def _heard_by(product):
-    """In how many channels, where one squeal may be an event in several."""
+def _heard_by(product):     # where one squeal may be an event in several channels
     channels = set(product.record_channel[product.event_record[squeals(product)]])
     return f", each counted once among {len(channels)} channels" if len(channels) > 1 else ""
 
