@@ -68,6 +68,20 @@ class CaseFile:
             _set(document, key.split("."), value, f"variant: {key}")
         return replace(self, document=document)
 
+    def check_variants(self, stage):
+        """Refuse variants that ``stage`` declares and that could not run."""
+        made = {}
+        for name, changes in stage.variants(self.sections).items():
+            try:
+                variant = self.varied(changes)
+                _check_keys(self.path, variant.document, self.stages)
+                made[name] = variant.sections
+                for each in self.stages:
+                    each.check(made[name])
+            except ConfigError as error:
+                raise ConfigError(f"variant {name} of {stage.name}: {error}") from error
+        stage.check_variants(self.sections, made)
+
     def given(self, stage):
         """The settings of a stage as the YAML gives them, with origins."""
         section = self.document.get(stage.name)
@@ -139,6 +153,9 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     for stage in stages:
         if stage.name not in unread:
             stage.check(case.sections)
+    for stage in stages:
+        if stage.varied and not unread:
+            case.check_variants(stage)
     return case
 
 

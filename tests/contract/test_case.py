@@ -209,3 +209,18 @@ def test_a_circle_of_cases_is_refused(tmp_path):
     (tmp_path / "b.yaml").write_text("based_on: a.yaml")
     with pytest.raises(ConfigError, match="a file that does not lead back here"):
         loaded(tmp_path / "a.yaml")
+
+
+@pytest.mark.parametrize("further, message", [
+    ("doubeld.factor: 3", "variant further of compared: .*doubeld: unknown section; did you mean 'doubled'"),
+    ("doubled.facto: 3", "variant further of compared: .*doubled.facto: unknown key; did you mean 'factor'"),
+    ("source.level: 3 kg", "variant further of compared: .*source.level: expected a quantity in Pa"),
+    ("source.duration: 5 s", "compared: further: expected the duration of the case")])
+def test_variants_are_checked_with_the_case(tmp_path, further, message):
+    """Before anything is computed: whatever a stage declares must be a case that runs."""
+    path = tmp_path / "varied.yaml"
+    path.write_text("chain: varied\ncompared: {further: {doubled.factor: 3}}\n")
+    assert loaded(path).sections["compared"].further == {"doubled.factor": 3}
+    path.write_text(f"chain: varied\ncompared: {{further: {{{further}}}}}\n")
+    with pytest.raises(ConfigError, match=message):
+        loaded(path)
