@@ -123,7 +123,7 @@ def test_a_case_of_another_chain_leaves_what_it_has_no_stage_for(config):
         model_config = {"extra": "allow"}
 
     def named(name):
-        return SimpleNamespace(name=name, settings=Any, check=lambda sections: None)
+        return SimpleNamespace(name=name, settings=Any, check=lambda sections: None, varied={})
 
     chains = {"toy": ("source", "doubled"), "short": ("source",)}
     base, other = config.with_name("base.yaml"), config.with_name("other.yaml")
@@ -151,7 +151,7 @@ class Files(Section):
 
 def files_of(path, *overrides):
     """Filled section 'source' of a case whose only stage reads files."""
-    reader = SimpleNamespace(name="source", settings=Files, check=lambda sections: None)
+    reader = SimpleNamespace(name="source", settings=Files, check=lambda sections: None, varied={})
     return case.load(path, {"toy": ("source",)}, lambda name: reader, overrides).sections["source"]
 
 
