@@ -104,7 +104,7 @@ def test_variants_are_drawn_as_asked_for(settings, draws, expected):
 
 @pytest.mark.parametrize("variants, message", [
     ("shim: {change: {structure.pad.linig_thickness: 9 mm}}",
-     "variant countermeasures.shim of countermeasures: .*linig_thickness: unknown key; did you mean 'lining_thickness'"),
+     "variant countermeasures.shim of countermeasures: .*linig_thickness: unknown key; did you mean 'lining_thick"),
     ("shim: {change: {structure.pad.lining_thickness: 9 kg}}", "lining_thickness: expected a quantity in m"),
     ("shim: {change: {structure.pad.lining_thickness: 9 mm}}\n    two: {change: {structure.pad.lining_thickness:"
      " 0.9 cm}}", "variants.two: expected settings that differ"),

@@ -73,7 +73,7 @@ def _check_key(where, key, known):
 
 
 def check_different(sections, varied):
-    """ConfigError for variants that leave the case as it is, that are equal, or that have operating points of their own.
+    """ConfigError for variants that leave the case as it is, that are equal, or that have other operating points.
 
     ``sections`` {stage: settings} of the case, ``varied`` {name of a variant: the same}.
     """

@@ -54,7 +54,7 @@ def system_of(brake, operating):
 
 
 def modes_about(brake, operating, targets):
-    """(roots (h,) 1/s, shapes (h, v, 3) on the surface) of the modes of a Brake near any of the ``targets`` (t,) 1/s."""
+    """(roots (h,) 1/s, shapes (h, v, 3) on the surface) of the modes of a Brake near any of the ``targets`` (t,)."""
     matrices, beside = system_of(brake, operating)
     recovery = brake.model.recovery
     roots, shapes = np.empty(0, complex), []

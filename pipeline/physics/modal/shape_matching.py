@@ -50,9 +50,9 @@ def common_points(position, body, other_position, other_body):
         weights.append(weight[near].ravel())
         count += int(near.sum())
     empty = [np.empty(0, int)]
-    entries = np.concatenate([np.empty(0), *weights]), tuple(np.concatenate([*empty, *each]) for each in (rows, columns))
-    return CommonPoints(np.concatenate([*empty, *index]),
-                        scipy.sparse.csr_array(entries, shape=(count, len(other_position))))
+    places = tuple(np.concatenate([*empty, *each]) for each in (rows, columns))
+    weight = scipy.sparse.csr_array((np.concatenate([np.empty(0), *weights]), places), (count, len(other_position)))
+    return CommonPoints(np.concatenate([*empty, *index]), weight)
 
 
 def _interpolation(points, nodes):

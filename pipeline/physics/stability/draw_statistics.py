@@ -17,7 +17,7 @@ def rate_interval(hits, count):
 
 
 def rate_change(before, after, paired):
-    """(change, (low, high)) of a rate: that of the hits ``after`` (m,) less that of ``before`` (n,), with 95 % interval.
+    """(change, (low, high)) of a rate: that of hits ``after`` (m,) less that of hits ``before`` (n,), 95 % interval.
 
     ``paired``: the draws of both are the same ones, m = n. Squares of the distances to the ends of the Wilson intervals
     add up, less what paired hits have in common (R. G. Newcombe, Stat. Med. 17 (1998) 873 and 2635, method 10).
