@@ -25,6 +25,7 @@ from pipeline.case_models.countermeasures.declared import (
 from pipeline.case_models.countermeasures.matching import compared_modes
 from pipeline.case_models.countermeasures.nearby_modes import Brake
 from pipeline.case_models.countermeasures.squeal_rates import changes_of_rates, paired
+from pipeline.case_models.countermeasures.table import csv_table
 from pipeline.case_models.scatter import stability_settings
 from pipeline.contract import Context, Section, Variants, option, stage
 from pipeline.products import (
@@ -59,7 +60,11 @@ def _variants(sections):
     return changes(settings.variants, more)
 
 
-@stage(check=_check, variants=_variants, check_variants=check_different)
+def _companions(product, case):
+    return {"countermeasures.csv": csv_table(product)} if len(product.variant) else {}
+
+
+@stage(companions=_companions, check=_check, variants=_variants, check_variants=check_different)
 def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: FrictionMap, effects: Effects | None,
                     convergence: Convergence, probability: Probability, varied_modes: Variants[ComplexModes],
                     varied_models: Variants[ReducedModel], varied_maps: Variants[FrictionMap],

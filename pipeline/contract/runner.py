@@ -19,7 +19,7 @@ from pipeline import __version__
 from pipeline.contract import fingerprint, store
 from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
-from pipeline.contract.errors import ConfigError, ProductError
+from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.integrity import checksum, seen
 from pipeline.contract.integrity.verify import recorded
 from pipeline.contract.received import files, names
@@ -278,8 +278,12 @@ def _computed(task, context=None):
     (run, lasts), done = task, []
     context = context or Context(solver=run.solver, case=run.case.card(__version__))
     with locked(run.folder):
-        for each in {stage.name: stage for last in lasts for stage in run._towards(last)}.values():
-            run._bring(each, context, frozenset(), lambda state, seconds: done.append((state, seconds)))
+        try:
+            for each in {stage.name: stage for last in lasts for stage in run._towards(last)}.values():
+                run._bring(each, context, frozenset(), lambda state, seconds: done.append((state, seconds)))
+        except BrakechainError as error:
+            raise type(error)(f"variant {run.variant}: {error.where}", error.expected, error.found,
+                              error.remedy) from error
         run._note()
     return [(state, seconds) for state, seconds in done if seconds is not None]
 

@@ -1,0 +1,154 @@
+"""Chapter: what does each countermeasure do to unstable modes and to the probability of squeal, and at what cost?"""
+
+import numpy as np
+
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.models.countermeasure_modes import (
+    HIGHER,
+    MODES,
+    before_after,
+    distinct,
+    in_words,
+    modes_table,
+    name_of,
+)
+from pipeline.views.figures.models import countermeasures as pictures
+from pipeline.views.figures.number_format import number, percent, plural, quantity
+
+_STATES = ("gone", "weaker", "unchanged", "ambiguous", "stronger", "new")
+
+
+def chapter(product, look):
+    """Chapter of the product Countermeasures; None without any."""
+    if not len(product.variant):
+        return None
+    paired = " The draws are those of the case, so that the interval of a change counts what differs alone." \
+        if product.draws and product.paired.all() else ""
+    return Chapter(
+        "countermeasures", "Countermeasures",
+        f"{plural(len(product.variant), 'variant')} of the brake beside it, at the same operating points. Modes before"
+        " and after are matched by their shapes (MAC) among all modes, stable ones too; variants are computed in the"
+        " reduced model. A change within what refined models move a growth rate by counts as none."
+        + paired, statement(product), _figures(product), (_summary(product), *modes_table(product)), _notes(product))
+
+
+def statement(product):
+    """Which variant helps most, by how much, at what cost, and what it makes worse; empty without variants."""
+    if not len(product.variant):
+        return ""
+    best = best_variant(product)
+    if best is None:
+        return f"{_nothing(product)} {' '.join(_worse(product, k) for k in range(len(product.variant)))}".strip()
+    cost = cost_in_words(product, best)
+    return f"{_gain(product, best)}{f', at {cost}' if cost else ''}. {_worse(product, best)}"
+
+
+def best_variant(product):
+    """Index of the variant that lowers the probability of squeal most or, without draws, the largest growth rate; None
+    where none does beyond its interval, or beyond the error of the growth rate."""
+    if product.draws:
+        helps = np.flatnonzero(product.overall_change_interval[:, 1] < 0)
+        return int(helps[np.argmin(product.overall_change[helps])]) if len(helps) else None
+    change = np.array([_largest(product, k)[1] - _largest(product, k)[0] for k in range(len(product.variant))])
+    best = int(np.argmin(change))
+    allowed = product.error[product.mode_variant == best].max(initial=0.0)
+    return best if change[best] < -allowed else None
+
+
+def _largest(product, variant):
+    """Largest growth rates (before, after) of the modes of a variant; 0 where all are stable."""
+    here = product.mode_variant == variant
+    return tuple(float(getattr(product, when).real[here & (getattr(product, f"{when}_known") == 1)].max(initial=0.0))
+                 for when in ("before", "after"))
+
+
+def _gain(product, variant):
+    name = name_of(product, variant)
+    if not product.draws:
+        before, after = _largest(product, variant)
+        return (f"{name} lowers the largest growth rate most, from {number(before, 3)} to {quantity(after, '1/s', 3)}"
+                " (no probabilities were computed)")
+    return (f"{name} lowers the probability of squeal most: {percent(product.overall, 2)} of the draws squeal without"
+            f" it at any operating point, {percent(product.variant_overall[variant], 2)} with it,"
+            f" {points(-product.overall_change[variant])} fewer"
+            f" ({points(-product.overall_change_interval[variant, 1], '')} to"
+            f" {points(-product.overall_change_interval[variant, 0])})")
+
+
+def points(share, unit=" percentage points"):
+    """'29.5 percentage points' for 0.295."""
+    return f"{number(round(100 * float(share), 1), 3)}{unit}"
+
+
+def _nothing(product):
+    if not product.draws:
+        return "No variant lowers the largest growth rate beyond the error of the model."
+    if not float(product.overall):
+        return "No draw of the case squeals: there is nothing to lower."
+    return (f"No variant lowers the probability of squeal, {percent(product.overall, 2)} of the draws, beyond its"
+            " interval.")
+
+
+def cost_in_words(product, variant):
+    """'mass 0.1 kg, price 2' of what is stated; empty without any."""
+    stated = np.flatnonzero(product.cost_known[variant])
+    return ", ".join(f"{product.cost_name[c]} {number(product.cost[variant, c])} {product.cost_unit[c]}".strip()
+                     for c in stated)
+
+
+def _worse(product, variant):
+    """What a variant makes worse, and how many matches are ambiguous."""
+    name = name_of(product, variant)
+    worse = [row for row in distinct(product, variant) if product.state[row] in HIGHER]
+    doubt = np.sum((product.mode_variant == variant) & (product.state == "ambiguous"))
+    tail = f" Ambiguous matches, which say nothing: {int(doubt)}." if doubt else ""
+    if not worse:
+        return f"{name} makes no other mode worse beyond the error of the model.{tail}"
+    shown = "; ".join(in_words(product, row) for row in worse[:2])
+    more = f"; and {plural(len(worse) - 2, 'more mode')}" if len(worse) > 2 else ""
+    return f"{name} makes other modes worse: {shown}{more}.{tail}"
+
+
+def _notes(product):
+    return tuple(f"{name_of(product, k)}: {product.note[k]}." for k in range(len(product.variant)) if product.note[k])
+
+
+def _figures(product):
+    rows = [row for k in range(len(product.variant)) for row in distinct(product, k)[:MODES]]
+    figures = (Figure(pictures.dumbbells(product, rows, [before_after(product, row) for row in rows]),
+                      "Growth rate of each mode before (circle) and after (mark), where it is largest: green and to the"
+                      " left, lower; red and to the right, higher; grey, no change beyond the error, or an ambiguous"
+                      " match (dotted). Marks at the left edge lie beyond it."),) if rows else ()
+    if not product.draws:
+        return figures
+    return (Figure(pictures.probabilities(product), "Share of the draws that squeal at any operating point, without and"
+                   " with each countermeasure, with 95 % interval."), *figures)
+
+
+def _summary(product):
+    """One row per variant: probability, change, what became of the modes, costs."""
+    rows, costs = [], [f"{name} / {unit}" if unit else str(name) for name, unit in
+                       zip(product.cost_name, product.cost_unit, strict=True)]
+    for k in range(len(product.variant)):
+        states = product.state[product.mode_variant == k]
+        rows.append((str(product.variant[k]), *_probability(product, k), number(_largest(product, k)[1], 3),
+                     ", ".join(f"{np.sum(states == s)} {s}" for s in _STATES if (states == s).any()) or "none unstable",
+                     *(number(value) if known else "" for value, known in
+                       zip(product.cost[k], product.cost_known[k], strict=True))))
+    drawn = ("squealing draws", "change / percentage points", "beyond interval") if product.draws else ()
+    head = ("countermeasure", *drawn, "largest growth rate / 1/s", "modes, at all operating points", *costs)
+    wide = len(drawn) + 2
+    title = "Countermeasures" + (f"; without any, {percent(product.overall, 3)} of the draws squeal at any operating"
+                                 " point" if product.draws else "")
+    numeric = tuple(c for c in range(1, len(head)) if c != wide)
+    return Table(head, tuple(rows), title, numeric, (wide,), subtitles=tuple(map(str, product.change)))
+
+
+def _probability(product, variant):
+    if not product.draws:
+        return ()
+    share, ends = product.variant_overall[variant], product.variant_overall_interval[variant]
+    change, reach = product.overall_change[variant], product.overall_change_interval[variant]
+    return (f"{percent(share)} ({percent(ends[0])} to {percent(ends[1])})",
+            f"{points(change, '')} ({points(reach[0], '')} to {points(reach[1], '')})",
+            "yes" if reach[0] > 0 or reach[1] < 0 else "no")
