@@ -45,6 +45,8 @@ class Settings(Section):
     variants: dict[str, Variant] = option({}, "countermeasures by name")
     probability: bool = option(True, "how likely squeal is in each variant; false: modes alone")
     draws: int | None = option(None, "draws of each variant; none = those of the case, draw by draw", ge=1)
+    cost: dict[str, str | float] = option({}, "of this case where 'brakechain compare' takes it for a variant")
+    note: str = option("", "what it is as a variant; none = its title")
 
 
 def _check(sections):

@@ -68,7 +68,16 @@ class CaseFile:
             _set(document, key.split("."), value, f"variant: {key}")
         return replace(self, document=document)
 
-    def check_variants(self, stage):
+    def check(self):
+        """Refuse sections that are not understood or contradict each other, and variants of the case that would be."""
+        for stage in self.stages:
+            if stage.name not in self.unread:
+                stage.check(self.sections)
+        for stage in self.stages:
+            if stage.varied and not self.unread:
+                self._check_variants(stage)
+
+    def _check_variants(self, stage):
         """Refuse variants that ``stage`` declares and that could not run."""
         made = {}
         for name, changes in stage.variants(self.sections).items():
@@ -150,12 +159,7 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     stages = tuple(stage_of(each) for each in chains[name])
     _check_keys(path, document, stages)
     case = CaseFile(path, document, stages, folders, measured, tuple(unread))
-    for stage in stages:
-        if stage.name not in unread:
-            stage.check(case.sections)
-    for stage in stages:
-        if stage.varied and not unread:
-            case.check_variants(stage)
+    case.check()
     return case
 
 

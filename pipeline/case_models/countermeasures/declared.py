@@ -54,14 +54,14 @@ def check_declared(variants, known):
         if not variant.change:
             raise ConfigError(f"{where}.{name}.change", "at least one setting that it changes", "none",
                               "state it as 'stage.key': value, or leave the variant out")
-        for key in variant.change:
-            _check_key(f"{where}.{name}.change", key, known)
+        for key, value in variant.change.items():
+            _check_key(f"{where}.{name}.change", key, value, known)
     costs(variants)
 
 
-def _check_key(where, key, known):
+def _check_key(where, key, value, known):
     stage, dot, _ = key.partition(".")
-    if stage not in known or not dot:
+    if stage not in known or not dot and not (isinstance(value, dict) and value):      # a whole section may be given
         near = get_close_matches(stage, [name for name in known if name in OF_MODES], 1)
         raise ConfigError(where, "'stage.key' with a stage of the chain", repr(key),
                           f"did you mean '{near[0]}'?" if near and dot else "such as structure.disc.young")
@@ -80,7 +80,7 @@ def check_different(sections, varied):
     seen = {"": _of_modes(sections)}
     for name, settings in varied.items():
         shown, given = f"countermeasures.variants.{name.removeprefix(PREFIX)}", _of_modes(settings)
-        for stage, key in (("structure", "pressures"), ("complex_modes", "speeds")):
+        for stage, key in (("structure", "pressures"), ("complex_modes", "speeds"), ("complex_modes", "squeal_from")):
             there, here = (getattr(each[stage], key) for each in (settings, sections))
             if there != here:
                 raise ConfigError(shown, f"the {stage}.{key} of the case", str(there), _FIXED[f"{stage}.{key}"])

@@ -29,6 +29,7 @@ class Modes(Section):
     friction_steps: int = 9
     residual_tolerance: float | None = 1e-6
     followed: int = 12
+    squeal_from: float = 1e3
 
 
 def variants(**given):

@@ -29,7 +29,8 @@ def chapter(product, look):
         f"{plural(len(product.variant), 'variant')} of the brake beside it, at the same operating points. Modes before"
         " and after are matched by their shapes (MAC) among all modes, stable ones too; variants are computed in the"
         " reduced model. A change within what refined models move a growth rate by counts as none."
-        + paired, statement(product), _figures(product), (_summary(product), *modes_table(product)), _notes(product))
+        + paired, statement(product), _figures(product), (summary_table(product), *modes_table(product)),
+        _notes(product))
 
 
 def statement(product):
@@ -125,7 +126,7 @@ def _figures(product):
                    " with each countermeasure, with 95 % interval."), *figures)
 
 
-def _summary(product):
+def summary_table(product):
     """One row per variant: probability, change, what became of the modes, costs."""
     rows, costs = [], [f"{name} / {unit}" if unit else str(name) for name, unit in
                        zip(product.cost_name, product.cost_unit, strict=True)]
