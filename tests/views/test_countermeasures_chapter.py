@@ -9,6 +9,8 @@ from pipeline.views.chapters.chapter import Look
 from pipeline.views.chapters.models.countermeasure_modes import distinct
 from pipeline.views.chapters.models.countermeasures import best_variant, chapter, statement
 from pipeline.views.figures.models import countermeasures as pictures
+from pipeline.views.pages.summary import verdict
+from tests.views import products_for_views as small
 from tests.views.countermeasures_for_views import countermeasures
 
 LOOK = Look(dpi=50)
@@ -21,7 +23,7 @@ def plain(text):
 def test_the_sentence_says_what_helps_most_by_how_much_and_at_what_cost():
     assert plain(statement(countermeasures())) == (
         "Shim lowers the probability of squeal most: 85 % of the draws squeal without it at any operating point, 55 %"
-        " with it, 30 percentage points fewer (22 to 38 percentage points), at mass 0.1 kg, price 2. Shim makes no"
+        " with it, 30 percentage points fewer (95 %: 22 to 38), at mass 0.1 kg, price 2. Shim makes no"
         " other mode worse beyond the error of the model.")
 
 
@@ -62,7 +64,7 @@ def test_each_frequency_stands_once_where_it_is_worst():
 def test_tables_show_modes_probabilities_and_costs(draws):
     made = chapter(countermeasures(draws=draws), LOOK)
     summary, modes = made.tables
-    assert len(summary.rows) == 2 and "mass / kg" in summary.head and summary.rows[1][-1] == ""
+    assert len(summary.rows) == 2 and "mass / kg" in summary.head and summary.rows[1][-2] == ""
     assert ("beyond interval" in summary.head) == bool(draws) and len(made.figures) == (2 if draws else 1)
     shown = [dict(zip(modes.head, row, strict=True)) for row in modes.rows]
     assert plain(shown[-1]["MAC"]) == "0.5 (also 0.45)" and shown[-1]["state"] == "ambiguous"
@@ -80,3 +82,10 @@ def test_pictures_change_with_what_they_show():
 
 def test_a_case_without_variants_has_no_chapter():
     assert chapter(countermeasures(variants=()), LOOK) is None
+
+
+def test_the_first_screen_says_what_helps():
+    given = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
+    answers = dict(verdict({**given, "countermeasures": countermeasures()}, ()).answers)
+    assert answers["What helps"] == statement(countermeasures())
+    assert "What helps" not in dict(verdict({**given, "countermeasures": countermeasures(variants=())}, ()).answers)

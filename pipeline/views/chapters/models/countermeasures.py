@@ -29,8 +29,7 @@ def chapter(product, look):
         f"{plural(len(product.variant), 'variant')} of the brake beside it, at the same operating points. Modes before"
         " and after are matched by their shapes (MAC) among all modes, stable ones too; variants are computed in the"
         " reduced model. A change within what refined models move a growth rate by counts as none."
-        + paired, statement(product), _figures(product), (summary_table(product), *modes_table(product)),
-        _notes(product))
+        + paired, statement(product), _figures(product), (summary_table(product), *modes_table(product)))
 
 
 def statement(product):
@@ -72,8 +71,8 @@ def _gain(product, variant):
     return (f"{name} lowers the probability of squeal most: {percent(product.overall, 2)} of the draws squeal without"
             f" it at any operating point, {percent(product.variant_overall[variant], 2)} with it,"
             f" {points(-product.overall_change[variant])} fewer"
-            f" ({points(-product.overall_change_interval[variant, 1], '')} to"
-            f" {points(-product.overall_change_interval[variant, 0])})")
+            f" (95 %: {points(-product.overall_change_interval[variant, 1], '')} to"
+            f" {points(-product.overall_change_interval[variant, 0], '')})")
 
 
 def points(share, unit=" percentage points"):
@@ -110,10 +109,6 @@ def _worse(product, variant):
     return f"{name} makes other modes worse: {shown}{more}.{tail}"
 
 
-def _notes(product):
-    return tuple(f"{name_of(product, k)}: {product.note[k]}." for k in range(len(product.variant)) if product.note[k])
-
-
 def _figures(product):
     rows = [row for k in range(len(product.variant)) for row in distinct(product, k)[:MODES]]
     figures = (Figure(pictures.dumbbells(product, rows, [before_after(product, row) for row in rows]),
@@ -127,7 +122,7 @@ def _figures(product):
 
 
 def summary_table(product):
-    """One row per variant: probability, change, what became of the modes, costs."""
+    """One row per variant: probability, change, what became of the modes, costs, what it is."""
     rows, costs = [], [f"{name} / {unit}" if unit else str(name) for name, unit in
                        zip(product.cost_name, product.cost_unit, strict=True)]
     for k in range(len(product.variant)):
@@ -135,14 +130,15 @@ def summary_table(product):
         rows.append((str(product.variant[k]), *_probability(product, k), number(_largest(product, k)[1], 3),
                      ", ".join(f"{np.sum(states == s)} {s}" for s in _STATES if (states == s).any()) or "none unstable",
                      *(number(value) if known else "" for value, known in
-                       zip(product.cost[k], product.cost_known[k], strict=True))))
+                       zip(product.cost[k], product.cost_known[k], strict=True)),
+                     ": ".join(filter(None, (str(product.note[k]), str(product.change[k]))))))
     drawn = ("squealing draws", "change / percentage points", "beyond interval") if product.draws else ()
-    head = ("countermeasure", *drawn, "largest growth rate / 1/s", "modes, at all operating points", *costs)
-    wide = len(drawn) + 2
+    head = ("countermeasure", *drawn, "largest growth rate / 1/s", "modes, at all operating points", *costs,
+            "what it changes")
+    wide = len(drawn) + 2, len(head) - 1
     title = "Countermeasures" + (f"; without any, {percent(product.overall, 3)} of the draws squeal at any operating"
                                  " point" if product.draws else "")
-    numeric = tuple(c for c in range(1, len(head)) if c != wide)
-    return Table(head, tuple(rows), title, numeric, (wide,), subtitles=tuple(map(str, product.change)))
+    return Table(head, tuple(rows), title, tuple(c for c in range(1, len(head)) if c not in wide), wide)
 
 
 def _probability(product, variant):
