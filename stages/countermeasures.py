@@ -24,7 +24,7 @@ from pipeline.case_models.countermeasures.declared import (
 )
 from pipeline.case_models.countermeasures.matching import compared_modes
 from pipeline.case_models.countermeasures.nearby_modes import Brake
-from pipeline.case_models.countermeasures.squeal_rates import changes_of_rates, paired
+from pipeline.case_models.countermeasures.squeal_rates import changes_in_bands, changes_of_rates, paired
 from pipeline.case_models.countermeasures.table import csv_table
 from pipeline.case_models.scatter import stability_settings
 from pipeline.contract import Context, Section, Variants, option, stage
@@ -142,4 +142,16 @@ def _rates(base, others):
         "interval": base.interval if there else np.zeros((0, 2)), "overall": base.overall if there else 0.0,
         "overall_interval": base.overall_interval if there else [0.0, 0.0],
         "probability_change": change[:, :-1], "change_interval": ends[:, :-1],
-        "overall_change": change[:, -1], "overall_change_interval": ends[:, -1]}
+        "overall_change": change[:, -1], "overall_change_interval": ends[:, -1],
+        **_bands(base if there else None, others)}
+
+
+def _bands(base, others):
+    """Fields of the 1/3 octaves; none without draws."""
+    if base is None:
+        return {"band": [], "band_probability": [], "variant_band_probability": np.zeros((len(others), 0)),
+                "band_change_interval": np.zeros((len(others), 0, 2))}
+    made, count = [changes_in_bands(base, other) for other in others], len(base.band)
+    return {"band": base.band, "band_probability": base.band_any,
+            "variant_band_probability": np.reshape([share for share, _ in made], (len(others), count)),
+            "band_change_interval": np.reshape([ends for _, ends in made], (len(others), count, 2))}

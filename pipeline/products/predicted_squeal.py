@@ -161,4 +161,8 @@ class Countermeasures:
     variant_overall_interval: Array = quantity("1", "variant end", "95 % Wilson interval of it")
     overall_change: Array = quantity("1", "variant", "the latter less the former")
     overall_change_interval: Array = quantity("1", "variant end", "95 % interval of the change")
+    band: Array = quantity("Hz", "band", "middles of the 1/3 octave bands; none without draws")
+    band_probability: Array = quantity("1", "band", "share of the draws of the case with an unstable mode in the band at any operating point")
+    variant_band_probability: Array = quantity("1", "variant band", "the same in each variant")
+    band_change_interval: Array = quantity("1", "variant band end", "95 % interval of the change, of each band by itself")
     squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal")

@@ -39,6 +39,6 @@ def test_damping_lowers_the_probability_of_squeal_and_no_change_leaves_it(tmp_pa
     assert made.overall_change[1] == 0 and not made.probability_change[1].any()
     page = (tmp_path / "run" / "report.html").read_text()
     assert 'id="countermeasures"' in page and "What helps" in page
-    rows = list(csv.DictReader((tmp_path / "run" / "countermeasures.csv").open()))
+    rows = list(csv.DictReader((tmp_path / "run" / "countermeasures.csv").read_text().splitlines()))
     assert len(rows) == len(made.state) + 2 and rows[0]["mass / kg"] == "0.1"
     assert "nothing to compute" in brakechain(*command).stdout

@@ -63,6 +63,9 @@ def test_what_helps_and_what_makes_worse_is_told(product):
     np.testing.assert_allclose(product.variant_probability - product.probability, product.probability_change,
                                atol=1e-12)
     assert product.paired.all() and product.draws == 40
+    used = product.band_probability > 0
+    assert used.any() and (product.variant_band_probability[0] <= product.band_probability)[used].all()
+    assert (product.band_change_interval[1, :, 1] > 0).all()
 
 
 def test_costs_are_those_stated(product):

@@ -23,6 +23,9 @@ def countermeasures(draws=100, variants=("shim", "shorter_lining")):
                      "rival_mac", "clear", "state"), map(list, columns), strict=True))
     mode |= {name: np.array(mode[name], complex) for name in ("before", "after")}
     drawn = bool(draws)
+    octaves = 1e3 * 10 ** (np.array([8, 9, 10]) / 10 if draws else np.empty(0))
+    band = np.array([0.0, 0.8, 0.1])[:len(octaves)]
+    band_change = np.array([[0.0, -0.3, 0.0], [0.0, 0.0, 0.2]])[:count, :len(octaves)]
     return Countermeasures(
         variant=list(variants),
         change=["structure.pad.backplate_loss_factor: 0.1", "structure.pad.angle: 44 deg"][:count],
@@ -36,4 +39,5 @@ def countermeasures(draws=100, variants=("shim", "shorter_lining")):
         change_interval=np.broadcast_to(fewer[:, None, None] + ends, (count, points, 2)),
         overall=0.85 * drawn, overall_interval=(0.85 + ends) * drawn, variant_overall=(0.85 + fewer) * drawn,
         variant_overall_interval=(0.85 + fewer[:, None] + ends) * drawn, overall_change=fewer * drawn,
-        overall_change_interval=(fewer[:, None] + ends) * drawn, squeal_from=1e3)
+        overall_change_interval=(fewer[:, None] + ends) * drawn, squeal_from=1e3, band=octaves, band_probability=band,
+        variant_band_probability=band + band_change, band_change_interval=band_change[..., None] + ends)

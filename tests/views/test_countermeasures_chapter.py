@@ -31,9 +31,12 @@ def test_a_mode_that_is_made_worse_is_named():
     told = plain(statement(countermeasures(variants=("shim", "shorter_lining"))))
     assert "worse" in told
     alone = countermeasures(variants=("shorter_lining",))
-    helps = replace(alone, overall_change=[-0.2], overall_change_interval=[[-0.3, -0.1]])
+    helps = replace(alone, variant_band_probability=[[0.0, 0.8, 0.3]],
+                    band_change_interval=[[[-0.1, 0.1], [-0.1, 0.1], [0.1, 0.3]]], overall_change=[-0.2],
+                    overall_change_interval=[[-0.3, -0.1]])
     assert ("Shorter lining makes other modes worse: a new unstable mode, 4.934 kHz, from a growth rate not known to"
-            " 75 1/s at 3 MPa and 12 rad/s. Ambiguous matches, which say nothing: 1.") in plain(statement(helps))
+            " 75 1/s at 3 MPa and 12 rad/s. Unstable modes become more likely in the 1/3 octaves of 10 kHz (10 % to"
+            " 30 % of the draws). Ambiguous matches, which say nothing: 1.") in plain(statement(helps))
 
 
 def test_nothing_that_helps_is_said_plainly():
@@ -63,7 +66,10 @@ def test_each_frequency_stands_once_where_it_is_worst():
 @pytest.mark.parametrize("draws", [100, 0])
 def test_tables_show_modes_probabilities_and_costs(draws):
     made = chapter(countermeasures(draws=draws), LOOK)
-    summary, modes = made.tables
+    summary, modes, *bands = made.tables
+    if draws:
+        shown = {plain(row[0]): list(map(plain, row[1:])) for row in bands[0].rows}
+        assert shown == {"8 kHz": ["80 %", "50 % (less)", "80 %"], "10 kHz": ["10 %", "10 %", "30 % (more)"]}
     assert len(summary.rows) == 2 and "mass / kg" in summary.head and summary.rows[1][-2] == ""
     assert ("beyond interval" in summary.head) == bool(draws) and len(made.figures) == (2 if draws else 1)
     shown = [dict(zip(modes.head, row, strict=True)) for row in modes.rows]

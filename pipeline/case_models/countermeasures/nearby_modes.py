@@ -59,6 +59,8 @@ def modes_about(brake, operating, targets):
     recovery = brake.model.recovery
     roots, shapes = np.empty(0, complex), []
     for target in targets:
+        if (abs(roots - target) <= SAME * abs(target)).any():
+            continue
         near, vectors = modes_near(*matrices, target * _BESIDE, NEAREST, beside)
         for root, vector in zip(near, vectors.T, strict=True):
             if root.imag > 0 and not (abs(roots - root) <= SAME * abs(root)).any():

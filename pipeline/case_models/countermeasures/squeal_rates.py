@@ -6,7 +6,7 @@ its counterpart then narrows the interval of the change.
 
 import numpy as np
 
-from pipeline.physics.stability.draw_statistics import rate_change
+from pipeline.physics.stability.draw_statistics import band_of, rate_change
 
 
 def squealing_draws(probability):
@@ -29,3 +29,21 @@ def changes_of_rates(base, other):
     before, after = (np.column_stack((hits, hits.any(axis=1))) for hits in map(squealing_draws, (base, other)))
     made = [rate_change(*hits, same) for hits in zip(before.T, after.T, strict=True)]
     return np.array([change for change, _ in made]), np.array([interval for _, interval in made])
+
+
+def changes_in_bands(base, other):
+    """(share (b,), interval (b, 2)): draws of ``other`` with an unstable mode in each 1/3 octave of a product
+    Probability ``base`` at any operating point, and the 95 % interval of the change."""
+    same = paired(base, other)
+    before, after = (_in_bands(each, base.band) for each in (base, other))
+    ends = [rate_change(*hits, same)[1] for hits in zip(before.T, after.T, strict=True)]
+    return after.mean(axis=0), np.reshape(ends, (len(base.band), 2))
+
+
+def _in_bands(probability, middles):
+    """(draw, band): whether a draw has an unstable mode in it at any operating point."""
+    hits = np.zeros((len(probability.value), len(middles)), bool)
+    band = band_of(abs(probability.root) / (2 * np.pi), middles)
+    inside = np.clip(band, 0, len(middles) - 1)
+    hits[probability.root_draw, inside] = True
+    return hits

@@ -5,7 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.countermeasures.squeal_rates import changes_of_rates, paired, squealing_draws
+from pipeline.case_models.countermeasures.squeal_rates import (
+    changes_in_bands,
+    changes_of_rates,
+    paired,
+    squealing_draws,
+)
 from tests.views import products_for_views as small
 
 
@@ -43,3 +48,11 @@ def test_other_draws_are_not_paired(base):
     assert paired(base, base) and not paired(base, fewer)
     wide = changes_of_rates(base, fewer)[1]
     assert np.diff(wide)[-1] > np.diff(changes_of_rates(base, base)[1])[-1]
+
+
+def test_bands_are_those_of_the_product(base):
+    """All roots are of 8 kHz: half of them less, and none in another band."""
+    share, interval = changes_in_bands(base, without(base, 0.5))
+    here = np.argmin(abs(base.band - 8e3))
+    assert 0 < share[here] < squealing_draws(base).any(axis=1).mean() and not np.delete(share, here).any()
+    assert interval[here, 1] < 0 and (interval[:here, 0] <= 0).all()

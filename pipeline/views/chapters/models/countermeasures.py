@@ -14,6 +14,7 @@ from pipeline.views.chapters.models.countermeasure_modes import (
 )
 from pipeline.views.figures.models import countermeasures as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
+from pipeline.views.figures.probability import nominal
 
 _STATES = ("gone", "weaker", "unchanged", "ambiguous", "stronger", "new")
 
@@ -29,7 +30,8 @@ def chapter(product, look):
         f"{plural(len(product.variant), 'variant')} of the brake beside it, at the same operating points. Modes before"
         " and after are matched by their shapes (MAC) among all modes, stable ones too; variants are computed in the"
         " reduced model. A change within what refined models move a growth rate by counts as none."
-        + paired, statement(product), _figures(product), (summary_table(product), *modes_table(product)))
+        + paired, statement(product), _figures(product),
+        (summary_table(product), *modes_table(product), *_bands(product)))
 
 
 def statement(product):
@@ -102,11 +104,42 @@ def _worse(product, variant):
     worse = [row for row in distinct(product, variant) if product.state[row] in HIGHER]
     doubt = np.sum((product.mode_variant == variant) & (product.state == "ambiguous"))
     tail = f" Ambiguous matches, which say nothing: {int(doubt)}." if doubt else ""
+    tail = _more_likely(product, variant) + tail
     if not worse:
         return f"{name} makes no other mode worse beyond the error of the model.{tail}"
     shown = "; ".join(in_words(product, row) for row in worse[:2])
     more = f"; and {plural(len(worse) - 2, 'more mode')}" if len(worse) > 2 else ""
     return f"{name} makes other modes worse: {shown}{more}.{tail}"
+
+
+def _octave(product, band):
+    return f"{nominal(product.band[band]) / 1e3:g} kHz"
+
+
+def _more_likely(product, variant):
+    """The 1/3 octaves in which more draws are unstable, beyond the interval; empty without any."""
+    more = np.flatnonzero(product.band_change_interval[variant, :, 0] > 0)
+    shown = [f"{_octave(product, b)} ({percent(product.band_probability[b], 2)} to"
+             f" {percent(product.variant_band_probability[variant, b], 2)} of the draws)" for b in more]
+    return f" Unstable modes become more likely in the 1/3 octaves of {', '.join(shown)}." if shown else ""
+
+
+def _bands(product):
+    """Shares of unstable draws by 1/3 octave; none without draws."""
+    used = np.flatnonzero((product.band_probability > 0) | (product.variant_band_probability > 0).any(axis=0))
+    if not len(used):
+        return ()
+    rows = []
+    for b in used:
+        cells = []
+        for share, (low, high) in zip(product.variant_band_probability[:, b], product.band_change_interval[:, b],
+                                      strict=True):
+            cells.append(percent(share) + (" (more)" if low > 0 else " (less)" if high < 0 else ""))
+        rows.append((_octave(product, b), percent(product.band_probability[b]), *cells))
+    head = "1/3 octave", "as it is", *map(str, product.variant)
+    title = ("Share of the draws with an unstable mode at any operating point, by 1/3 octave; more and less: beyond the"
+             " 95 % interval of the change, of each band by itself")
+    return (Table(head, tuple(rows), title, tuple(range(1, len(head)))),)
 
 
 def _figures(product):
