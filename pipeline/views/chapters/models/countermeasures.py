@@ -155,23 +155,23 @@ def _figures(product):
 
 
 def summary_table(product):
-    """One row per variant: probability, change, what became of the modes, costs, what it is."""
+    """One row per variant: probability, change, costs, what became of the modes, what it is."""
     rows, costs = [], [f"{name} / {unit}" if unit else str(name) for name, unit in
                        zip(product.cost_name, product.cost_unit, strict=True)]
     for k in range(len(product.variant)):
         states = product.state[product.mode_variant == k]
-        rows.append((str(product.variant[k]), *_probability(product, k), number(_largest(product, k)[1], 3),
-                     ", ".join(f"{np.sum(states == s)} {s}" for s in _STATES if (states == s).any()) or "none unstable",
-                     *(number(value) if known else "" for value, known in
-                       zip(product.cost[k], product.cost_known[k], strict=True)),
+        stated = (number(value) if known else "" for value, known in
+                  zip(product.cost[k], product.cost_known[k], strict=True))
+        counts = ", ".join(f"{np.sum(states == s)} {s}" for s in _STATES if (states == s).any())
+        rows.append((str(product.variant[k]), *_probability(product, k), *stated, number(_largest(product, k)[1], 3),
+                     counts or "none unstable",
                      ": ".join(filter(None, (str(product.note[k]), str(product.change[k]))))))
-    drawn = ("squealing draws", "change / percentage points", "beyond interval") if product.draws else ()
-    head = ("countermeasure", *drawn, "largest growth rate / 1/s", "modes, at all operating points", *costs,
-            "what it changes")
-    wide = len(drawn) + 2, len(head) - 1
-    title = "Countermeasures" + (f"; without any, {percent(product.overall, 3)} of the draws squeal at any operating"
-                                 " point" if product.draws else "")
-    return Table(head, tuple(rows), title, tuple(c for c in range(1, len(head)) if c not in wide), wide)
+    drawn = ("squealing draws", "change / % points", "beyond interval") if product.draws else ()
+    head = ("countermeasure", *drawn, *costs, "growth rate / 1/s", "modes, all operating points", "what it changes")
+    title = "Countermeasures, with the largest growth rate that each leaves" + (
+        f"; without any, {percent(product.overall, 3)} of the draws squeal at any operating point" if product.draws
+        else "")
+    return Table(head, tuple(rows), title, tuple(range(1, len(head) - 2)), (len(head) - 2, len(head) - 1))
 
 
 def _probability(product, variant):
