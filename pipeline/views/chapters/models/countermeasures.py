@@ -23,13 +23,13 @@ def chapter(product, look):
     """Chapter of the product Countermeasures; None without any."""
     if not len(product.variant):
         return None
-    paired = " The draws are those of the case, so that the interval of a change counts what differs alone." \
+    paired = " The draws are those of the case: a change is judged draw by draw." \
         if product.draws and product.paired.all() else ""
     return Chapter(
         "countermeasures", "Countermeasures",
-        f"{plural(len(product.variant), 'variant')} of the brake beside it, at the same operating points. Modes before"
-        " and after are matched by their shapes (MAC) among all modes, stable ones too; variants are computed in the"
-        " reduced model. A change within what refined models move a growth rate by counts as none."
+        f"{plural(len(product.variant), 'variant')} of the brake compared with it at the same operating points. Modes"
+        " before and after are matched by their shapes (MAC) among all modes, stable ones too; variants are computed in"
+        " the reduced model. A change within what refined models move a growth rate by counts as none."
         + paired, statement(product), _figures(product),
         (summary_table(product), *modes_table(product), *_bands(product)))
 
