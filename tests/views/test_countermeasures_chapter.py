@@ -24,7 +24,7 @@ def test_the_sentence_says_what_helps_most_by_how_much_and_at_what_cost():
     assert plain(statement(countermeasures())) == (
         "Shim lowers the probability of squeal most: 85 % of the draws squeal without it at any operating point, 55 %"
         " with it, 30 percentage points fewer (95 %: 22 to 38), at mass 0.1 kg, price 2. Shim makes no"
-        " other mode worse beyond the error of the model.")
+        " other mode worse beyond the error that refinement shows.")
 
 
 def test_a_mode_that_is_made_worse_is_named():

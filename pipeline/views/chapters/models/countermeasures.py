@@ -47,7 +47,7 @@ def statement(product):
 
 def best_variant(product):
     """Index of the variant that lowers the probability of squeal most or, without draws, the largest growth rate; None
-    where none does beyond its interval, or beyond the error of the growth rate."""
+    where none does beyond its interval, or beyond the error that refinement shows."""
     if product.draws:
         helps = np.flatnonzero(product.overall_change_interval[:, 1] < 0)
         return int(helps[np.argmin(product.overall_change[helps])]) if len(helps) else None
@@ -84,7 +84,7 @@ def points(share, unit=" percentage points"):
 
 def _nothing(product):
     if not product.draws:
-        return "No variant lowers the largest growth rate beyond the error of the model."
+        return "No variant lowers the largest growth rate beyond the error that refinement shows."
     if not float(product.overall):
         return "No draw of the case squeals: there is nothing to lower."
     return (f"No variant lowers the probability of squeal, {percent(product.overall, 2)} of the draws, beyond its"
@@ -106,7 +106,7 @@ def _worse(product, variant):
     tail = f" Ambiguous matches, which say nothing: {int(doubt)}." if doubt else ""
     tail = _more_likely(product, variant) + tail
     if not worse:
-        return f"{name} makes no other mode worse beyond the error of the model.{tail}"
+        return f"{name} makes no other mode worse beyond the error that refinement shows.{tail}"
     shown = "; ".join(in_words(product, row) for row in worse[:2])
     more = f"; and {plural(len(worse) - 2, 'more mode')}" if len(worse) > 2 else ""
     return f"{name} makes other modes worse: {shown}{more}.{tail}"
