@@ -84,8 +84,10 @@ def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: Fric
     """
     base, names = Brake(modes, model, friction_map, effects), list(varied_modes)
     others = [Brake(varied_modes[n], varied_models[n], varied_maps[n], varied_effects[n]) for n in names]
-    neutral = stability_settings(modes).neutral
-    found = context.map(partial(_compared, base, convergence, neutral), others, "countermeasures")
+    tasks = [(other, operating) for other in others for operating in range(len(modes.operating_speed))]
+    compare = partial(_compared, base, convergence, stability_settings(modes).neutral)
+    rows, points = context.map(compare, tasks, "operating points"), len(modes.operating_speed)
+    found = [sum(rows[k:k + points], []) for k in range(0, len(rows), points)]
     declared = {name.removeprefix(PREFIX): settings.variants[name.removeprefix(PREFIX)] for name in names}
     return Countermeasures(
         variant=list(declared), note=[v.note for v in declared.values()],
@@ -94,8 +96,9 @@ def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: Fric
         **_rates(probability if settings.probability else None, [varied_probabilities[n] for n in names]))
 
 
-def _compared(base, convergence, neutral, other):
-    return compared_modes(base, other, convergence, neutral)
+def _compared(base, convergence, neutral, task):
+    other, operating = task
+    return compared_modes(base, other, convergence, neutral, operating)
 
 
 def _costs(declared):

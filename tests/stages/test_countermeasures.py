@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.contract import ConfigError, Section, case
+from pipeline.contract import ConfigError, Context, Section, case
 from pipeline.contract.store import read, write
 from pipeline.products import Countermeasures
 from stages import CHAINS, load
@@ -14,6 +14,7 @@ from stages.probability import Settings as Draws
 from stages.probability import probability
 from tests.case_models.countermeasures.two_brakes import brake, convergence
 from tests.diagnosis.small_rig import effects
+from tests.stages.two_processes import TwoProcesses
 
 SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "friction", "variation": 0.05})
 VARIANTS = {
@@ -34,7 +35,7 @@ def drawn(given, draws):
         draws=draws, checked=0, training=2, sources=SOURCES))
 
 
-def made(variants=VARIANTS, draws=40, of_variants=None, **settings):
+def made(variants=VARIANTS, draws=40, of_variants=None, context=None, **settings):
     base, empty = brake(), effects({})
     others = {f"countermeasures.{name}": brake(**BRAKES[name]) for name in variants}
     return countermeasures(
@@ -45,7 +46,7 @@ def made(variants=VARIANTS, draws=40, of_variants=None, **settings):
         varied_effects=dict.fromkeys(others, empty),
         varied_probabilities={name: drawn(other, draws if of_variants is None else of_variants)
                               for name, other in others.items()},
-        settings=Settings.model_validate({"variants": variants, **settings}))
+        settings=Settings.model_validate({"variants": variants, **settings}), context=context or Context())
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +67,13 @@ def test_what_helps_and_what_makes_worse_is_told(product):
     used = product.band_probability > 0
     assert used.any() and (product.variant_band_probability[0] <= product.band_probability)[used].all()
     assert (product.band_change_interval[1, :, 1] > 0).all()
+
+
+def test_the_number_of_workers_changes_no_bit(product):
+    again = made(context=TwoProcesses())
+    assert list(again.state) == list(product.state)
+    np.testing.assert_array_equal(again.after, product.after)
+    np.testing.assert_array_equal(again.mac, product.mac)
 
 
 def test_costs_are_those_stated(product):

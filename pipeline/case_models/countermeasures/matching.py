@@ -37,17 +37,16 @@ class ComparedMode:
     error: float
 
 
-def compared_modes(base, other, convergence, neutral):
-    """[ComparedMode] of two Brakes at all operating points, those unstable before first, strongest first.
+def compared_modes(base, other, convergence, neutral, operating=None):
+    """[ComparedMode] of two Brakes, those unstable before first, strongest first, at each operating point.
 
-    ``convergence``: product of the case; growth up to ``neutral`` times the size of a root is none. Roots after are
-    those of the reduced model, moved by what the full matrices move the root before.
+    ``convergence``: product of the case; growth up to ``neutral`` times the size of a root is none; ``operating``: one
+    operating point alone, an index. Roots after are those of the reduced model, moved by what the full matrices move
+    the root before.
     """
     points = common_points(*_surface(base.model), *_surface(other.model))
-    found = []
-    for operating in range(len(base.modes.operating_speed)):
-        found += _at(operating, base, other, points, convergence, neutral)
-    return found
+    where = range(len(base.modes.operating_speed)) if operating is None else (operating,)
+    return [row for k in where for row in _at(k, base, other, points, convergence, neutral)]
 
 
 def _surface(model):
