@@ -60,11 +60,11 @@ def modes_table(product):
     rows = [_cells(product, k, row) for k in range(len(product.variant)) for row in distinct(product, k)[:_ROWS]]
     if not rows:
         return ()
-    head = ("countermeasure", "before", "growth / 1/s", "damping ratio / %", "after", "growth / 1/s",
-            "damping ratio / %", "MAC", "state", "at all operating points", "shown at")
+    head = ("countermeasure", "state", "before", "growth / 1/s", "damping ratio / %", "after", "growth / 1/s",
+            "damping ratio / %", "MAC", "at all operating points", "shown at")
     title = (f"Unstable modes before and after, each frequency once where it grows most, up to {_ROWS} of each"
              " countermeasure; all are in countermeasures.csv")
-    return (Table(head, tuple(rows), title, tuple(range(1, 8))),)
+    return (Table(head, tuple(rows), title, tuple(range(2, 9))),)
 
 
 def _cells(product, variant, row):
@@ -72,8 +72,8 @@ def _cells(product, variant, row):
     point, mac = product.mode_operating[row], number(product.mac[row], 2)
     if not product.clear[row]:
         mac = f"{mac} (also {number(product.rival_mac[row], 2)})" if product.rival_mac[row] > 0 else f"{mac}, unclear"
-    return (str(product.variant[variant]), *_of_root(product, "before", row), *_of_root(product, "after", row), mac,
-            str(product.state[row]), _everywhere(product, variant, row),
+    return (str(product.variant[variant]), str(product.state[row]), *_of_root(product, "before", row),
+            *_of_root(product, "after", row), mac, _everywhere(product, variant, row),
             f"{quantity(product.pressure[point], 'Pa', 3)}, {quantity(product.speed[point], 'rad/s')}")
 
 
