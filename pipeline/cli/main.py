@@ -65,11 +65,32 @@ def _stage_command(name):
     return with_fit(command) if name == "surface" else command
 
 
+@cli.command()
+@_CONFIG
+@click.argument("variants", metavar="VARIANT...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@options("run", "set", *_FAN_OUT)
+def compare(config, variants, folder, overrides, dry_run, workers, scheduler):
+    """Compare CONFIG with each VARIANT, a case of the same chain: unstable modes and probability of squeal.
+
+    What a VARIANT states otherwise becomes a variant in the section countermeasures of CONFIG, whose chain then runs.
+    """
+    from pipeline.cli import compare as variant_files
+
+    others = [_loaded(file, overrides, ("countermeasures",)) for file in variants]
+    job = _job_of(variant_files.with_variants(_loaded(config, overrides), others), folder)
+    _execute(job, None, None, (), dry_run, workers, scheduler)
+    if not dry_run:
+        variant_files.show(job)
+
+
 def _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):
+    _execute(_job(config, folder, overrides), first, last, force, dry_run, workers, scheduler)
+
+
+def _execute(job, first, last, force, dry_run, workers, scheduler):
     from pipeline.cli.console import Bars, RunContext
     from pipeline.contract import executor
 
-    job = _job(config, folder, overrides)
     first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
     names = [s.name for s in job.case.stages]
     for name in force:
@@ -95,15 +116,24 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
 
 def _job(config, folder, overrides):
     """The case and its run folder, checked, with the sparse solver resolved."""
-    from pipeline.contract import case, runner
-    from pipeline.physics.numerics import sparse_solver
+    return _job_of(_loaded(config, overrides), folder)
+
+
+def _loaded(config, overrides, unread=()):
+    from pipeline.contract import case
     from pipeline.recordings import registry
 
-    chosen = case.load(config, stages.CHAINS, stages.load, overrides, registry.path)
+    return case.load(config, stages.CHAINS, stages.load, overrides, registry.path, unread)
+
+
+def _job_of(chosen, folder):
+    from pipeline.contract import runner
+    from pipeline.physics.numerics import sparse_solver
+
     solver = sparse_solver.available()[0] if chosen.solver == "auto" else chosen.solver
     if solver not in sparse_solver.available():
-        raise click.BadParameter(f"{config}: solver: expected one of {', '.join(sparse_solver.available())} on this"
-                                 f" machine, found {solver!r}")
+        raise click.BadParameter(f"{chosen.path}: solver: expected one of {', '.join(sparse_solver.available())} on"
+                                 f" this machine, found {solver!r}")
     return runner.ChainRun(chosen, folder or RUNS / chosen.name, solver)
 
 

@@ -68,6 +68,29 @@ class CaseFile:
             _set(document, key.split("."), value, f"variant: {key}")
         return replace(self, document=document)
 
+    def check(self):
+        """Refuse sections that are not understood or contradict each other, and variants of the case that would be."""
+        for stage in self.stages:
+            if stage.name not in self.unread:
+                stage.check(self.sections)
+        for stage in self.stages:
+            if stage.varied and not self.unread:
+                self._check_variants(stage)
+
+    def _check_variants(self, stage):
+        """Refuse variants that ``stage`` declares and that could not run."""
+        made = {}
+        for name, changes in stage.variants(self.sections).items():
+            try:
+                variant = self.varied(changes)
+                _check_keys(self.path, variant.document, self.stages)
+                made[name] = variant.sections
+                for each in self.stages:
+                    each.check(made[name])
+            except ConfigError as error:
+                raise ConfigError(f"variant {name} of {stage.name}: {error}") from error
+        stage.check_variants(self.sections, made)
+
     def given(self, stage):
         """The settings of a stage as the YAML gives them, with origins."""
         section = self.document.get(stage.name)
@@ -136,9 +159,7 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     stages = tuple(stage_of(each) for each in chains[name])
     _check_keys(path, document, stages)
     case = CaseFile(path, document, stages, folders, measured, tuple(unread))
-    for stage in stages:
-        if stage.name not in unread:
-            stage.check(case.sections)
+    case.check()
     return case
 
 

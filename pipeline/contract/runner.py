@@ -19,7 +19,7 @@ from pipeline import __version__
 from pipeline.contract import fingerprint, store
 from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
-from pipeline.contract.errors import ConfigError, ProductError
+from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.integrity import checksum, seen
 from pipeline.contract.integrity.verify import recorded
 from pipeline.contract.received import files, names
@@ -217,11 +217,15 @@ class ChainRun:
 
         Variants run side by side, each in one process, where that process writes to the run folder; else in turn.
         """
-        old = [(run, last) for _, run, last, _ in self.variants(stage) if any(s.reasons for s in run.needed(last))]
+        lasts = {}
+        for name, run, last, _ in self.variants(stage):
+            if any(state.reasons for state in run.needed(last)):
+                lasts.setdefault(name, (run, []))[1].append(last)
+        old = list(lasts.values())
         if not old:
             return []
         if not context.sees_files:
-            return [done for run, last in old for done in _computed((run, last), context)]
+            return [done for task in old for done in _computed(task, context)]
         with context.stage(stage):
             return [done for variant in context.map(_computed, old, "variants of the case") for done in variant]
 
@@ -270,12 +274,16 @@ class ChainRun:
 
 
 def _computed(task, context=None):
-    """(state, seconds) of each stage that was computed for the last one of a variant; ``task``: (ChainRun, Stage)."""
-    (run, last), done = task, []
+    """(state, seconds) of each stage that was computed for some of a variant; ``task``: (ChainRun, [Stage])."""
+    (run, lasts), done = task, []
     context = context or Context(solver=run.solver, case=run.case.card(__version__))
     with locked(run.folder):
-        for each in run._towards(last):
-            run._bring(each, context, frozenset(), lambda state, seconds: done.append((state, seconds)))
+        try:
+            for each in {stage.name: stage for last in lasts for stage in run._towards(last)}.values():
+                run._bring(each, context, frozenset(), lambda state, seconds: done.append((state, seconds)))
+        except BrakechainError as error:
+            raise type(error)(f"variant {run.variant}: {error.where}", error.expected, error.found,
+                              error.remedy) from error
         run._note()
     return [(state, seconds) for state, seconds in done if seconds is not None]
 

@@ -58,6 +58,7 @@ class Stage:
     check: Callable     # {stage: settings} -> None; raises for settings that contradict those of other stages
     varied: dict        # argument name -> product class, for arguments that take it from each variant of the case
     variants: Callable  # {stage: settings} -> {name of a variant: {'stage.key': value}}
+    check_variants: Callable    # ({stage: settings}, {name of a variant: {stage: settings}}) -> None; as ``check``
 
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` and optional inputs may be left out.
@@ -91,12 +92,13 @@ def _imported(module, name):
 def stage(run=None, **options):
     """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage.
 
-    Options: ``companions``, ``reads_case``, ``check`` and ``variants``, see Stage.
+    Options: ``companions``, ``reads_case``, ``check``, ``variants`` and ``check_variants``, see Stage.
     """
     return partial(_stage, **options) if run is None else _stage(run, **options)
 
 
-def _stage(run, *, companions=None, reads_case=False, check=lambda sections: None, variants=None):
+def _stage(run, *, companions=None, reads_case=False, check=lambda sections: None, variants=None,
+           check_variants=lambda sections, varied: None):
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
@@ -117,7 +119,7 @@ def _stage(run, *, companions=None, reads_case=False, check=lambda sections: Non
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
     return Stage(run.__name__, run, inputs, optional, reads_all, output, settings, summary.strip().splitlines()[0],
                  " ".join(method.split()), companions, reads_case, check, varied,
-                 variants or (lambda sections: {}))
+                 variants or (lambda sections: {}), check_variants)
 
 
 def _options(hint):

@@ -54,6 +54,13 @@ def test_every_commented_value_is_the_default_that_it_says(tmp_path):
     assert before == values(loaded(file))
 
 
+def test_its_example_of_a_countermeasure_is_one(tmp_path):
+    file = made(tmp_path)[0]
+    head, found, example = file.read_text().partition("# countermeasures:")
+    file.write_text(head + found.removeprefix("# ") + example.replace("\n#", "\n"))
+    assert list(loaded(file).sections["countermeasures"].variants) == ["shim"]
+
+
 def test_answers_stand_in_it_as_the_users(tmp_path):
     """Asked again where a quantity is of another unit or not positive; Enter keeps the typical value."""
     file, printed = made(tmp_path, "--ask", entered="7 kg\n-1 mm\n150 mm\n" + "\n" * (len(ASKED) - 1))

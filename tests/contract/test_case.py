@@ -123,7 +123,7 @@ def test_a_case_of_another_chain_leaves_what_it_has_no_stage_for(config):
         model_config = {"extra": "allow"}
 
     def named(name):
-        return SimpleNamespace(name=name, settings=Any, check=lambda sections: None)
+        return SimpleNamespace(name=name, settings=Any, check=lambda sections: None, varied={})
 
     chains = {"toy": ("source", "doubled"), "short": ("source",)}
     base, other = config.with_name("base.yaml"), config.with_name("other.yaml")
@@ -151,7 +151,7 @@ class Files(Section):
 
 def files_of(path, *overrides):
     """Filled section 'source' of a case whose only stage reads files."""
-    reader = SimpleNamespace(name="source", settings=Files, check=lambda sections: None)
+    reader = SimpleNamespace(name="source", settings=Files, check=lambda sections: None, varied={})
     return case.load(path, {"toy": ("source",)}, lambda name: reader, overrides).sections["source"]
 
 
@@ -209,3 +209,18 @@ def test_a_circle_of_cases_is_refused(tmp_path):
     (tmp_path / "b.yaml").write_text("based_on: a.yaml")
     with pytest.raises(ConfigError, match="a file that does not lead back here"):
         loaded(tmp_path / "a.yaml")
+
+
+@pytest.mark.parametrize("further, message", [
+    ("doubeld.factor: 3", "variant further of compared: .*doubeld: unknown section; did you mean 'doubled'"),
+    ("doubled.facto: 3", "variant further of compared: .*doubled.facto: unknown key; did you mean 'factor'"),
+    ("source.level: 3 kg", "variant further of compared: .*source.level: expected a quantity in Pa"),
+    ("source.duration: 5 s", "compared: further: expected the duration of the case")])
+def test_variants_are_checked_with_the_case(tmp_path, further, message):
+    """Before anything is computed: whatever a stage declares must be a case that runs."""
+    path = tmp_path / "varied.yaml"
+    path.write_text("chain: varied\ncompared: {further: {doubled.factor: 3}}\n")
+    assert loaded(path).sections["compared"].further == {"doubled.factor": 3}
+    path.write_text(f"chain: varied\ncompared: {{further: {{{further}}}}}\n")
+    with pytest.raises(ConfigError, match=message):
+        loaded(path)

@@ -189,6 +189,19 @@ def test_variants_run_in_turn_where_workers_do_not_see_the_run_folder(varied, mo
     assert job(varied).execute(Context()) == 6 and set(told) == {"channels"}
 
 
+def test_an_error_names_the_variant_that_it_is_of(varied, monkeypatch):
+    known = runner.ChainRun._compute
+
+    def failing(run, stage, context):
+        if run.variant == "stronger":
+            raise ConfigError("doubled.factor", "less", "5")
+        return known(run, stage, context)
+
+    monkeypatch.setattr(runner.ChainRun, "_compute", failing)
+    with pytest.raises(ConfigError, match="variant stronger: doubled.factor: expected less, found 5"):
+        job(varied).execute(Context())
+
+
 def test_variants_of_the_default_case_go_to_other_processes():
     """With all that was filled in here, and back: the same settings."""
     given = case.load(ROOT / "configs" / "disc_brake.yaml", stages.CHAINS, stages.load)

@@ -15,7 +15,7 @@ from pipeline.views.chapters.bench import (
     orders,
 )
 from pipeline.views.chapters.friction import outside_computed
-from pipeline.views.chapters.models import matrix_modes, noise_matrix
+from pipeline.views.chapters.models import countermeasures, matrix_modes, noise_matrix
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
 from pipeline.views.chapters.unstable_modes import (
@@ -58,7 +58,7 @@ def verdict(products, tuned_settings):
         return _of_matrix(products["noise_matrix"], products, tuned_settings)
     headline, tone = _headline(products)
     answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
-               ("How certain", _sure(products)),
+               ("What helps", _helps(products)), ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
@@ -223,6 +223,12 @@ def _likely(products):
     """Probability at the worst operating point, and what matters most; empty without draws."""
     product = products.get("probability")
     return "" if product is None else probability.statement(product)
+
+
+def _helps(products):
+    """The best countermeasure; empty without variants."""
+    product = products.get("countermeasures")
+    return "" if product is None else countermeasures.statement(product)
 
 
 def _compared(products):

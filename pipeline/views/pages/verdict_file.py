@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.limit_cycle import total
+from pipeline.views.chapters.models.countermeasures import best_variant
 from pipeline.views.chapters.models.noise_matrix_tables import differing
 from pipeline.views.chapters.pad_motion import open_balance
 from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair, squealing
@@ -24,6 +25,7 @@ def verdict_text(verdict, products):
                 "unstable_modes": _of_matrices(given) + ([] if modes is None else _unstable(modes)),
                 "convergence": None if refined is None else _convergence(refined),
                 "transient": _transient(products.get("limit_cycle")),
+                "countermeasures": _countermeasures(products.get("countermeasures")),
                 "heard_lines": _heard(products.get("line_evidence")),
                 "noise_matrix": _matrix(products.get("noise_matrix")),
                 "warnings": _warnings(modes, refined) + list(filter(None, (
@@ -150,6 +152,24 @@ def _convergence(refined):
     return {"converged": bool(refined.converged.item()), "pressure": float(refined.pressure),
             "speed": float(refined.speed), "largest_frequency_change": float(refined.frequency_change),
             "largest_growth_change": float(refined.growth_change), "refinements": per_refinement}
+
+
+def _countermeasures(product):
+    """What each variant does to the modes and to the probability of squeal, by its name; null without variants."""
+    if product is None or not len(product.variant):
+        return None
+    variants = {}
+    for k, name in enumerate(product.variant):
+        states = list(map(str, product.state[product.mode_variant == k]))
+        squeal = {"value": float(product.variant_overall[k]), "interval": product.variant_overall_interval[k].tolist(),
+                  "change": float(product.overall_change[k]),
+                  "change_interval": product.overall_change_interval[k].tolist()} if product.draws else None
+        stated = product.cost_known[k] == 1
+        variants[str(name)] = {"change": str(product.change[k]), "probability": squeal,
+                               "modes": {state: states.count(state) for state in sorted(set(states))},
+                               "costs": _named(product.cost_name[stated], product.cost[k][stated])}
+    best = best_variant(product)
+    return {"best": None if best is None else str(product.variant[best]), "variants": variants}
 
 
 def _warnings(modes, refined):

@@ -12,6 +12,7 @@ from pipeline.views.chapters.pad_motion import chapter
 from pipeline.views.pages.summary import verdict
 from pipeline.views.pages.verdict_file import SCHEMA, verdict_text
 from tests.views import products_for_views as small
+from tests.views.countermeasures_for_views import countermeasures
 
 
 def written(products):
@@ -122,3 +123,14 @@ def test_an_open_energy_balance_of_the_pads_is_a_warning_wherever_it_is_told():
             assert "at 1 of 9 operating points" in warnings[0] and warnings[0] in answers and warnings[0] in text
         else:
             assert warnings == [] and "energy balance" not in answers and "closes within 1\u202f%" in text
+
+
+def test_countermeasures_are_there_by_name():
+    given = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
+    assert written(given)["countermeasures"] is None
+    told = written({**given, "countermeasures": countermeasures()})["countermeasures"]
+    assert told["best"] == "shim" and told["variants"]["shim"]["modes"] == {"gone": 2, "weaker": 2}
+    assert told["variants"]["shim"]["probability"]["change"] == -0.3
+    assert told["variants"]["shorter_lining"]["costs"] == {"mass": -0.05}
+    assert written({**given, "countermeasures": countermeasures(draws=0)})["countermeasures"]["variants"]["shim"][
+        "probability"] is None

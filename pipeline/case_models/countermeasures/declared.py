@@ -1,0 +1,128 @@
+"""Declared countermeasures: what each changes and costs, and which ones are refused.
+
+    countermeasures:
+      variants:
+        shim:
+          change: {structure.pad.backplate_loss_factor: 0.05, structure.joints.finger_loss_factor: 0.1}
+          cost: {mass: 0.1 kg, price: 2 EUR}
+          note: constrained-layer shim on both pads
+"""
+
+import re
+from difflib import get_close_matches
+from typing import Any
+
+from pipeline.contract import ConfigError, Section, option
+from pipeline.contract.received.names import checked_all
+
+#: stages whose settings make modes
+OF_MODES = ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes")
+#: settings of complex modes that variants are computed with: neither sweep nor full matrices
+COMPUTED_WITH = {"complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None,
+                 "complex_modes.followed": 0}
+#: settings that must stay, and why
+_FIXED = {"structure.pressures": "operating points are compared one by one",
+          "complex_modes.speeds": "operating points are compared one by one",
+          "complex_modes.squeal_from": "squeal is counted alike before and after",
+          **dict.fromkeys(COMPUTED_WITH, "variants are computed in the reduced model, without a sweep over friction")}
+#: how the names of variants begin in the run folder, where other stages have theirs
+PREFIX = "countermeasures."
+_COST = re.compile(r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)\s*(?P<unit>[^\d\s].*)?")
+
+
+class Variant(Section):
+    """One countermeasure."""
+
+    change: dict[str, Any] = option({}, "settings that it changes, as 'stage.key': value")
+    cost: dict[str, str | float] = option(
+        {}, "what it costs, in columns of your own: a number with or without a unit, such as mass: 0.1 kg")
+    note: str = option("", "what it is")
+
+
+def changes(variants, more):
+    """{name of a variant in the run folder: {'stage.key': value}} of declared ``variants``, with what all change."""
+    return {f"{PREFIX}{name}": {**variant.change, **COMPUTED_WITH, **more} for name, variant in variants.items()}
+
+
+def check_declared(variants, known):
+    """ConfigError for variants that change nothing or what leaves modes alone, and for costs that are no numbers.
+
+    ``known``: names of the stages of the chain.
+    """
+    where = "countermeasures.variants"
+    for name, variant in checked_all(dict(variants), where).items():
+        if not variant.change:
+            raise ConfigError(f"{where}.{name}.change", "at least one setting that it changes", "none",
+                              "state it as 'stage.key': value, or leave the variant out")
+        for key, value in variant.change.items():
+            _check_key(f"{where}.{name}.change", key, value, known)
+    costs(variants)
+
+
+def _check_key(where, key, value, known):
+    stage, dot, _ = key.partition(".")
+    if stage not in known or not dot and not (isinstance(value, dict) and value):      # a whole section may be given
+        near = get_close_matches(stage, [name for name in known if name in OF_MODES], 1)
+        raise ConfigError(where, "'stage.key' with a stage of the chain", repr(key),
+                          f"did you mean '{near[0]}'?" if near and dot else "such as structure.disc.young")
+    if stage not in OF_MODES:
+        raise ConfigError(where, f"settings of {', '.join(name for name in known if name in OF_MODES)}, which modes"
+                          " depend on", repr(key), "change that in the case itself: it holds before and after")
+    if key in _FIXED:
+        raise ConfigError(where, "settings that may differ", f"{key!r}: {_FIXED[key]}", "change it in the case itself")
+
+
+def check_different(sections, varied):
+    """ConfigError for variants that leave the case as it is, that are equal, or that have other operating points.
+
+    ``sections`` {stage: settings} of the case, ``varied`` {name of a variant: the same}.
+    """
+    seen = {"": _of_modes(sections)}
+    for name, settings in varied.items():
+        shown, given = f"countermeasures.variants.{name.removeprefix(PREFIX)}", _of_modes(settings)
+        for stage, key in (("structure", "pressures"), ("complex_modes", "speeds"), ("complex_modes", "squeal_from")):
+            there, here = (getattr(each[stage], key) for each in (settings, sections))
+            if there != here:
+                raise ConfigError(shown, f"the {stage}.{key} of the case", str(there), _FIXED[f"{stage}.{key}"])
+        same = [other for other, known in seen.items() if known == given]
+        if same:
+            raise ConfigError(shown, "settings that differ from those of the case and of all other variants",
+                              f"those of {same[0].removeprefix(PREFIX) or 'the case'}", "change another value, or leave"
+                              " it out")
+        seen[name] = given
+
+
+def _of_modes(sections):
+    """All settings that modes depend on, without those that variants are computed with."""
+    plain = {name: sections[name].model_dump() for name in OF_MODES if name in sections}
+    for key in COMPUTED_WITH:
+        stage, _, field = key.partition(".")
+        plain[stage].pop(field, None)
+    return plain
+
+
+def costs(variants):
+    """[(column, unit, {name of a variant: number})] in the order of the YAML; ConfigError for what is no number."""
+    columns = {}
+    for name, variant in variants.items():
+        for column, given in variant.cost.items():
+            where = f"countermeasures.variants.{name}.cost.{column}"
+            number, unit = _number(given, where)
+            known, numbers = columns.setdefault(column, (unit, {}))
+            if unit != known:
+                raise ConfigError(where, f"{known or 'no unit'}, as in the variants before", repr(unit or "none"),
+                                  "state each cost in one unit")
+            numbers[name] = number
+    return [(column, unit, numbers) for column, (unit, numbers) in columns.items()]
+
+
+def _number(given, where):
+    read = _COST.fullmatch(given) if isinstance(given, str) else None
+    if isinstance(given, str) and read is None:
+        raise ConfigError(where, "a number, with or without a unit, such as 0.1 kg", repr(given)[:100])
+    return (float(read["number"]), (read["unit"] or "").strip()) if read else (float(given), "")
+
+
+def in_words(changed):
+    """'structure.pad.lining_thickness: 9 mm; ...' of what a variant changes."""
+    return "; ".join(f"{key}: {value}" for key, value in changed.items())

@@ -1,0 +1,69 @@
+"""Modes of a reduced brake near given roots, stable ones too, about steady sliding at one operating point.
+
+The system is that of ``complex_modes`` at its operating points, the whole reduced model with loss factors as imaginary
+stiffness, so that its unstable roots are those of that product.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.steady_sliding import mapped_friction, posed
+from pipeline.physics.modal.nearest_modes import modes_near
+from pipeline.physics.sliding.equilibrium import closure_response
+from pipeline.physics.stability.growth_balance import Losses
+from pipeline.physics.time_stepping.simulate import Table
+
+#: modes sought about each target, and shift of the target beside a root, as a share of it
+NEAREST, _BESIDE = 24, 1 + 1e-4
+#: roots closer than this share of their size are one root
+SAME = 1e-6
+
+
+@dataclass(frozen=True)
+class Brake:
+    """Products of a case, or of a variant of it: ComplexModes, ReducedModel, FrictionMap, Effects or None."""
+
+    modes: object
+    model: object
+    friction_map: object
+    effects: object = None
+
+
+def system_of(brake, operating):
+    """((M, C, K) each (n, n), Settling or None) of a Brake about steady sliding at an operating point, an index."""
+    points, model = stability_settings(brake.modes), brake.model
+    pressure, speed = brake.modes.operating_pressure[operating], float(brake.modes.operating_speed[operating])
+    state = int(np.argmin(abs(model.pressure - pressure)))
+    case = posed(model, state, speed, points.damping_speed, physics_terms(brake.effects), conditions(brake.effects))
+    tabled = isinstance(case.base.law, Table) and not case.moved
+    response = closure_response(case.bench.model, points.centrifugal) if tabled else None
+    seeking = case.condensed() if case.moved else case
+    sliding = seeking.slide(response, model.pressure[state] * model.input_area,
+                            *mapped_friction(brake.friction_map, points.sliding_distance), points)
+    about = sliding.about(case.bench.model)
+    friction, beside = sliding.acting(points.friction_slopes), sliding.beside(about, points.friction_slopes)
+    mass, damping, stiffness = about.linearised(friction, points.friction_damping, points.gyroscopic,
+                                                points.centrifugal)
+    more = Losses.of(model).enlarged(about.size).change(case.base.model) if points.hysteretic else None
+    if more is not None:
+        damping, stiffness = damping + more[0], stiffness + more[1]
+    return (mass, damping, stiffness), beside
+
+
+def modes_about(brake, operating, targets):
+    """(roots (h,) 1/s, shapes (h, v, 3) on the surface) of the modes of a Brake near any of the ``targets`` (t,)."""
+    matrices, beside = system_of(brake, operating)
+    recovery = brake.model.recovery
+    roots, shapes = np.empty(0, complex), []
+    for target in targets:
+        if (abs(roots - target) <= SAME * abs(target)).any():
+            continue
+        near, vectors = modes_near(*matrices, target * _BESIDE, NEAREST, beside)
+        for root, vector in zip(near, vectors.T, strict=True):
+            if root.imag > 0 and not (abs(roots - root) <= SAME * abs(root)).any():
+                roots = np.append(roots, root)
+                shapes.append(recovery @ vector[:recovery.shape[2]].astype(np.complex64))
+    return roots, np.reshape(shapes, (len(roots), *recovery.shape[:2]))

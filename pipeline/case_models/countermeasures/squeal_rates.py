@@ -1,0 +1,49 @@
+"""Probability of squeal with and without a countermeasure, by the draws of both.
+
+Draws of a variant are those of the case where it has as many: the same seed and sources. What a draw has in common with
+its counterpart then narrows the interval of the change.
+"""
+
+import numpy as np
+
+from pipeline.physics.stability.draw_statistics import band_of, rate_change
+
+
+def squealing_draws(probability):
+    """(draw, operating point): whether a draw of a product Probability squeals there."""
+    hits = np.zeros((len(probability.value), len(probability.speed)), bool)
+    squeals = abs(probability.root) >= 2 * np.pi * float(probability.squeal_from)
+    hits[probability.root_draw[squeals], probability.root_operating[squeals]] = True
+    return hits
+
+
+def paired(base, other):
+    """Whether two products Probability have the same draws."""
+    return len(base.value) == len(other.value) > 0 and list(base.source) == list(other.source)
+
+
+def changes_of_rates(base, other):
+    """(change (o + 1,), interval (o + 1, 2)) of the share of squealing draws from one product Probability to another:
+    at each operating point, and last at any of them."""
+    same = paired(base, other)
+    before, after = (np.column_stack((hits, hits.any(axis=1))) for hits in map(squealing_draws, (base, other)))
+    made = [rate_change(*hits, same) for hits in zip(before.T, after.T, strict=True)]
+    return np.array([change for change, _ in made]), np.array([interval for _, interval in made])
+
+
+def changes_in_bands(base, other):
+    """(share (b,), interval (b, 2)): draws of ``other`` with an unstable mode in each 1/3 octave of a product
+    Probability ``base`` at any operating point, and the 95 % interval of the change."""
+    same = paired(base, other)
+    before, after = (_in_bands(each, base.band) for each in (base, other))
+    ends = [rate_change(*hits, same)[1] for hits in zip(before.T, after.T, strict=True)]
+    return after.mean(axis=0), np.reshape(ends, (len(base.band), 2))
+
+
+def _in_bands(probability, middles):
+    """(draw, band): whether a draw has an unstable mode in it at any operating point."""
+    hits = np.zeros((len(probability.value), len(middles)), bool)
+    band = band_of(abs(probability.root) / (2 * np.pi), middles)
+    inside = np.clip(band, 0, len(middles) - 1)
+    hits[probability.root_draw, inside] = True
+    return hits
