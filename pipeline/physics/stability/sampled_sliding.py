@@ -8,6 +8,7 @@ S begins with the answers to the inputs and to the joints. While the balance of 
 whole model, the answer to it joins S.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -45,7 +46,8 @@ class SlidingBasis:
     """A Family on s static answers ``shape`` (n, s): ``small`` is its SlidingModel, ``lining`` (s, s) N/m or None.
 
     ``start`` (s,): where Newton's method sets out. ``residual``: largest change of a contact force, as a share of the
-    largest, that the whole model would still make to a training draw.
+    largest, that the whole model would still make to a training draw. ``law(closure)``: force and slope (c,) at rest
+    where another than that of the Family holds.
     """
 
     family: Family
@@ -54,6 +56,7 @@ class SlidingBasis:
     lining: np.ndarray | None
     start: np.ndarray
     residual: float = np.inf
+    law: Callable | None = None
 
     def compact(self, family):
         """The same without the whole model, of a Family that lacks it."""
@@ -105,8 +108,9 @@ class SlidingBasis:
     def _contact(self, factors, state):
         """(force (c,) N, stiffness (c,) N/m) of the contacts."""
         family, contacts = self.family, self.small.contacts
-        force, slope = force_at_rest(-(contacts.normal @ state + contacts.gap), contacts.area,
-                                    family.law_closure / factors.contact_stiffness, family.law_pressure)
+        closure = -(contacts.normal @ state + contacts.gap)
+        force, slope = self.law(closure) if self.law else force_at_rest(
+            closure, contacts.area, family.law_closure / factors.contact_stiffness, family.law_pressure)
         return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
     def _miss(self, factors, small, stiffness, state):
