@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.case_models.sensitivity.few_coordinates import REACHES, few_coordinates
+from pipeline.case_models.sensitivity.few_coordinates import few_coordinates
 from pipeline.case_models.sensitivity.parameters import parameters
 
 #: values are changed by this many references to either side
@@ -44,12 +44,7 @@ def _changes(few, value, friction_map, points):
     """(reach, r) change of each root per reference of a Parameter, by central differences of the matrices."""
     ends = [few.on(value.changed(few.case, side * STEP)) if value.of_bodies else value.changed(few.small, side * STEP)
             for side in (-1, 1)]
-    changes = []
-    for reach in range(len(REACHES)):
-        low, high = (few.matrices(end, friction_map, points, reach) for end in ends)
-        difference = [(b - a) / (2 * STEP) for a, b in zip(low, high, strict=True)]
-        changes.append([mode.change(difference) for mode in few.modes])
-    return changes
+    return few.changes(ends, friction_map, points) / (2 * STEP)
 
 
 def scatter_of(value, probability):

@@ -1,16 +1,15 @@
 """A case in few coordinates, in which its roots have the first derivatives that they have in the whole model.
 
-The sliding state q of a case follows from R(q, p) = 0, a root s from y^H T(s, q, p) x = 0, p what is varied. On a basis
-W both are small. Their derivatives stay exact if W holds q, x, y and the adjoint z of each root,
+The sliding state q of a case follows from R(q, p) = 0, a root s from y^H T(s, q, p) x = 0, p what is varied. With the
+adjoint z of each root,
 
-    (dR/dq)^T z = (ds/dq)^T:    ds/dq dq = - z^T dR/dp dp,
+    (dR/dq)^T z = - (ds/dq)^T,    ds = - y^H (dT/dp dp) x + z^T (dR/dp dp),
 
-as the residual that W leaves of R_q dq + R_p dp = 0 is orthogonal to z, and T changes between x and y alone.
+where y^H (dT/ds) x = 1: q, x, y and z are all that a derivative asks for, and a basis that holds them keeps it exact.
 Contacts and friction follow their laws as ``local_laws`` has them.
 """
 
 from dataclasses import dataclass, fields, make_dataclass, replace
-from functools import partial
 
 import numpy as np
 import scipy
@@ -19,10 +18,8 @@ from pipeline.case_models.sensitivity.local_laws import LocalFriction, LocalLaw
 from pipeline.case_models.sensitivity.matrices import Case, matrices_about, polished_root, varied
 from pipeline.physics.contact.static_preload import Preload
 from pipeline.physics.modal.root_derivatives import RootWithVectors
-from pipeline.physics.sliding.equilibrium import displacement, model_about
+from pipeline.physics.sliding.equilibrium import displacement, given_state, model_about
 from pipeline.physics.sliding.model import Joints
-from pipeline.physics.stability.sampled_sliding import GivenSliding, SlidingBasis
-from pipeline.physics.stability.scatter import NOMINAL
 from pipeline.physics.stability.whole_roots import linearising, sliding_state
 from pipeline.products import ReducedModel
 
@@ -43,7 +40,7 @@ REACHES = (1, 2)
 class FewCoordinates:
     """A Case on a ``basis`` (n, m): ``small`` is the Case with a model of m coordinates, ``start`` (m,) its sliding
     state, ``modes`` the RootWithVectors of its roots, vectors (m,); ``laws``: of each reach the LocalLaw, None without
-    one, and the LocalFriction."""
+    one, and the LocalFriction; ``adjoints`` (reach, r, m) of the roots."""
 
     case: Case
     small: Case
@@ -51,6 +48,7 @@ class FewCoordinates:
     start: np.ndarray
     modes: tuple
     laws: tuple
+    adjoints: np.ndarray
 
     def on(self, case):
         """A Case of the whole model that differs from ``case``, in the few coordinates."""
@@ -59,19 +57,34 @@ class FewCoordinates:
                    if getattr(given, name) is not getattr(known, name)}
         return replace(case, model=replace(self.small.model, **changed))
 
-    def matrices(self, case, friction_map, points, reach=0):
-        """(M, C, K) each (m, m) of a Case in the few coordinates about its own steady sliding; as of ``matrices``.
+    def changes(self, ends, friction_map, points):
+        """(reach, r) first-order change of each root, 1/s, from the first to the second of two Cases ``ends`` in the
+        few coordinates."""
+        found = []
+        for reach, adjoints in enumerate(self.adjoints):
+            (low, before), (high, after) = (self.about(end, friction_map, points, reach) for end in ends)
+            difference = [b - a for a, b in zip(low, high, strict=True)]
+            found.append([mode.change(difference) + adjoint @ (after - before)
+                          for mode, adjoint in zip(self.modes, adjoints, strict=True)])
+        return np.array(found)
 
-        ``reach``: which of the laws.
-        """
+    def about(self, case, friction_map, points, reach=0):
+        """((M, C, K) each (m, m), imbalance (m,) N) of a Case in the few coordinates about the sliding state of
+        ``case``, at rest there."""
         law, friction = self.laws[reach]
         made = varied(case, friction_map, points, friction)
-        sliding = GivenSliding(made) if law is None else SlidingBasis(
-            made, np.eye(len(self.start)), made.model, None, self.start,
-            law=partial(law, case.factors.contact_stiffness))
-        contact = sliding.slide(NOMINAL, case.speed)
-        return matrices_about(made, model_about(made.model, contact, made.damping_speed),
-                              linearising(made, contact.friction))
+        model, area = made.model.at_speed(case.speed), made.model.contacts.area
+        if law is None:
+            contact, state = (sliding := given_state(model, made.friction)).contact, sliding.friction
+        else:
+            contact = Preload(*law(case.factors.contact_stiffness, law.closure), law.closure)
+            state = made.friction(contact.force / area, abs(model.sliding_speed))
+        held = model.supported(False, made.centrifugal)[2] @ self.start
+        drawn = model.direction() * state.coefficient * contact.force
+        pushed = contact.force @ model.contacts.normal + drawn @ model.contacts.tangent
+        imbalance = held - made.input_force @ model.input_rows - pushed
+        about = model_about(model, contact, made.damping_speed)
+        return matrices_about(made, about, linearising(made, state)), imbalance
 
 
 def few_coordinates(case, roots, friction_map, points):
@@ -83,22 +96,23 @@ def few_coordinates(case, roots, friction_map, points):
     modes = [polished_root(whole, root) for root in roots]
     laws = tuple((LocalLaw.about(made, sliding, reach) if made.has_law else None,
                   LocalFriction.about(made, sliding, friction_map, reach)) for reach in REACHES)
-    vectors, still = [v for mode in modes for v in (mode.right, mode.left)], np.zeros(about.size)
+    still, adjoints = np.zeros(about.size), np.zeros((len(laws) * len(modes), about.size))
     if made.has_law:
         still = displacement(about, sliding.contact, sliding.friction.coefficient, made.input_force, made.centrifugal)
-        by_closures = [by_closure(replace(made, friction=friction), law, mode) for law, friction in laws
-                       for mode in modes]
-        vectors += _adjoint(about, sliding, made.centrifugal, by_closures)
-    basis = _orthonormal(np.column_stack([still, *(part(v) for v in vectors for part in (np.real, np.imag))]))
+        adjoints = _adjoints(about, sliding, made.centrifugal, [
+            by_closure(replace(made, friction=friction), law, mode) for law, friction in laws for mode in modes])
+    vectors = [still, *(v for mode in modes for v in (mode.right, mode.left)), *adjoints]
+    basis = _orthonormal(np.column_stack([part(v) for v in vectors for part in (np.real, np.imag)]))
     small = replace(case, model=_on(case.model, basis))
     inside = tuple(RootWithVectors(m.root, basis.T @ m.right, basis.T @ m.left) for m in modes)
-    return FewCoordinates(case, small, basis, basis.T @ still, inside, laws)
+    return FewCoordinates(case, small, basis, basis.T @ still, inside, laws,
+                          (adjoints @ basis).reshape(len(laws), len(modes), -1))
 
 
-def _adjoint(about, sliding, centrifugal, by_closures):
-    """Adjoint (n,) of each of ``by_closures`` (c,) ds/dc to the sliding state of a SlidingModel linearised about it."""
+def _adjoints(about, sliding, centrifugal, by_closures):
+    """(a, n) adjoints for ``by_closures`` [(c,)] ds/dc to the sliding state of a SlidingModel linearised about it."""
     tangent = about.frictionless(centrifugal=centrifugal)[2] + about.friction_matrices(sliding.friction, False)[1]
-    return list(np.linalg.solve(tangent.T, about.contacts.normal.T @ np.array(by_closures).T).T)
+    return np.linalg.solve(tangent.T, about.contacts.normal.T @ np.array(by_closures).T).T
 
 
 def by_closure(family, law, mode):

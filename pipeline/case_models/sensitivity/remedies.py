@@ -61,5 +61,7 @@ def stabilised(case, root, shape, value, slope, friction_map, points):
         if now.real <= STABLE * root.real or slope.real * first >= 0:
             break
         step = min(max(step - now.real / slope.real, 2 * min(first, 0.0)), 2 * max(first, 0.0))
+        if step == path[-1][0]:
+            break
         expected = now + (step - path[-1][0]) * slope
     return min(path[1:], key=lambda point: point[1].real, default=None)

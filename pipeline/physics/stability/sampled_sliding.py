@@ -8,7 +8,6 @@ S begins with the answers to the inputs and to the joints. While the balance of 
 whole model, the answer to it joins S.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -46,8 +45,7 @@ class SlidingBasis:
     """A Family on s static answers ``shape`` (n, s): ``small`` is its SlidingModel, ``lining`` (s, s) N/m or None.
 
     ``start`` (s,): where Newton's method sets out. ``residual``: largest change of a contact force, as a share of the
-    largest, that the whole model would still make to a training draw. ``law(closure)``: force and slope (c,) at rest
-    where another than that of the Family holds.
+    largest, that the whole model would still make to a training draw.
     """
 
     family: Family
@@ -56,7 +54,6 @@ class SlidingBasis:
     lining: np.ndarray | None
     start: np.ndarray
     residual: float = np.inf
-    law: Callable | None = None
 
     def compact(self, family):
         """The same without the whole model, of a Family that lacks it."""
@@ -108,9 +105,8 @@ class SlidingBasis:
     def _contact(self, factors, state):
         """(force (c,) N, stiffness (c,) N/m) of the contacts."""
         family, contacts = self.family, self.small.contacts
-        closure = -(contacts.normal @ state + contacts.gap)
-        force, slope = self.law(closure) if self.law else force_at_rest(
-            closure, contacts.area, family.law_closure / factors.contact_stiffness, family.law_pressure)
+        force, slope = force_at_rest(-(contacts.normal @ state + contacts.gap), contacts.area,
+                                    family.law_closure / factors.contact_stiffness, family.law_pressure)
         return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
     def _miss(self, factors, small, stiffness, state):
