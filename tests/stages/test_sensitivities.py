@@ -165,7 +165,7 @@ def test_thirty_values_of_the_quick_brake_within_five_percent_of_differences(tmp
 
 
 def _fine(model):
-    """The ReducedModel with its contact law, which is exponential but for its first row, on 10 000 times as many rows."""
+    """The ReducedModel with its contact law, which is exponential but for its first row, in rows 10 000 times finer."""
     known, pressure = model.law_closure[1:], model.law_pressure[1:]
     rows = np.interp(np.arange(10000 * len(known) - 9999) / 10000, np.arange(len(known)), known)
     return replace(model, law_closure=np.append(0.0, rows),

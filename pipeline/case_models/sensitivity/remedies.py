@@ -14,10 +14,10 @@ LIMITS = (("friction", (0.3, 0.3)), ("*_stiffness", (0.5, 1.0)), ("*.lining_youn
           ("*densit*", (0.1, 0.1)), ("*.loss_factor", (0.0, 0.2)), ("*_loss_factor", (0.0, 0.2)))
 #: values whose names end so are conditions, or stand for many parts at once
 _GIVEN = ("contact_stiffness", "structure.joints.seal_stiffness", "structure.joints.piston_stiffness", "*.fluid.*")
-#: growth that is left counts as none below this share of what it was
-STABLE = 0.02
+#: growth rate that is aimed at, over the one of the mode: slightly stable
+_AIM = -0.01
 #: solutions of the whole model at most
-_TRIALS = 4
+_TRIALS = 5
 #: change of a frequency beyond which another mode was found
 _SAME = 0.02
 
@@ -47,7 +47,8 @@ def stabilised(case, root, shape, value, slope, friction_map, points):
 
     ``root`` 1/s and ``shape`` (n,) of the mode of a Case; ``slope`` complex 1/s per reference.
     """
-    path, first = [(0.0, root)], -root.real / slope.real
+    path, aim = [(0.0, root)], _AIM * root.real
+    first = (aim - root.real) / slope.real
     step, expected = first, root + first * slope
     for _ in range(_TRIALS):
         try:
@@ -58,9 +59,9 @@ def stabilised(case, root, shape, value, slope, friction_map, points):
             break
         path.append((step, now))
         slope = (path[-1][1] - path[-2][1]) / (path[-1][0] - path[-2][0])
-        if now.real <= STABLE * root.real or slope.real * first >= 0:
+        if now.real <= 0 or slope.real * first >= 0:
             break
-        step = min(max(step - now.real / slope.real, 2 * min(first, 0.0)), 2 * max(first, 0.0))
+        step = min(max(step + (aim - now.real) / slope.real, 2 * min(first, 0.0)), 2 * max(first, 0.0))
         if step == path[-1][0]:
             break
         expected = now + (step - path[-1][0]) * slope

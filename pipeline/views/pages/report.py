@@ -28,7 +28,16 @@ from pipeline.views.chapters.bench import (
     response_functions,
 )
 from pipeline.views.chapters.chapter import Figure
-from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, matrix_modes, noise_matrix, rupture, transient
+from pipeline.views.chapters.models import (
+    beam_on_beam,
+    lock_in,
+    lumped,
+    matrix_modes,
+    noise_matrix,
+    rupture,
+    sensitivities,
+    transient,
+)
 from pipeline.views.figures import complex_modes as stability_pictures
 from pipeline.views.figures import vibration as sound_pictures
 from pipeline.views.figures.models import rupture as rupture_pictures
@@ -56,6 +65,7 @@ CHAPTERS = {
     "convergence": (convergence.chapter, ()),
     "limit_cycle": (limit_cycle.chapter, ()),
     "probability": (probability.chapter, ()),
+    "sensitivities": (sensitivities.chapter, ("convergence",)),
     "multibody": (pad_motion.chapter, ()),
     "transient": (transient.chapter, ()),
     "lock_in": (lock_in.lock_in, ()),
