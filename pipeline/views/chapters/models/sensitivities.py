@@ -45,8 +45,8 @@ def statement(product):
             f" at {_where(product, 0)}) is {_the(product, first)}: one standard deviation more of it"
             f" ({_scatter(product, 0, first)}) {_effect(product, 0, first)}")
     if others:
-        most += ", then " + " and ".join(f"{_the(product, p)} ({_scatter(product, 0, p)} {_effect(product, 0, p)})"
-                                         for p in others)
+        most += ", then " + " and ".join(
+            f"{_the(product, p)} ({_scatter(product, 0, p)} {_effect(product, 0, p)})" for p in others)
     return f"{most}. {_to_do(product)}"
 
 
@@ -100,7 +100,6 @@ def _scatter(product, mode, parameter):
 
 
 def _to_do(product):
-    """What makes the first mode stable."""
     found = [_instead(product, p, value) for p, value, root in _tried(product) if root.real <= 0]
     if not found:
         return "No single value that was tried makes it stable." if len(product.remedy_value) else \
@@ -142,13 +141,13 @@ def _ranked(product):
     for p in _order(product, 0)[:_ROWS]:
         derivative, value = product.derivative[0, p].real, product.value[0, p]
         rows.append((in_words(product.parameter[p]), written(product, p, value),
-                     f"{_scatter(product, 0, p)}{'' if product.declared[p] else ' (not declared)'}",
+                     f"{_scatter(product, 0, p)}{'' if product.declared[p] else ', assumed'}",
                      _with_error(product.change[0, p], product.error[0, p] * product.scatter[0, p]),
                      _signed(derivative * value / 100) if value else "—", _needed(growth, derivative, value),
                      str(product.parameter[p])))
-    return Table(("value", "now", "one standard deviation", "adds to growth rate, 1/s", "by 1 % more, 1/s",
-                  "stable, to first order", "setting or factor"), tuple(rows),
-                 f"What matters for the mode at {_frequency(product, 0)}, by rank", (1, 2, 3, 4, 5))
+    return Table(("value", "now", "scatter", "adds, 1/s", "per 1 %, 1/s", "stable at", "setting or factor"),
+                 tuple(rows), f"What one standard deviation (scatter) adds to the growth rate of the mode at"
+                 f" {_frequency(product, 0)}; the change at which it is stable is to first order", (1, 2, 3, 4, 5))
 
 
 def _with_error(change, error):
@@ -157,9 +156,9 @@ def _with_error(change, error):
 
 def _needed(growth, derivative, value):
     """By how much the value would have to change to take all growth, to first order."""
-    if not value or not derivative or abs(growth / (derivative * value)) > 1:
+    change = -growth / (derivative * value) if value and derivative else np.inf
+    if abs(change) > 1:
         return "—"
-    change = -growth / (derivative * value)
     return f"{'+' if change > 0 else '−'}{percent(abs(change), 2)}"
 
 
