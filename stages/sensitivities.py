@@ -66,7 +66,8 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     others = again.by_differences(settings.differences, modes, chosen, varied, context.case)
     return Sensitivities(
         mode=chosen, pressure=modes.operating_pressure[where], speed=modes.operating_speed[where],
-        friction=modes.operating_friction[where], root=np.array([each.roots[k] for each, k in rows], complex),
+        friction=modes.operating_friction[where], mode_root=modes.unstable_root[chosen],
+        root=np.array([each.roots[k] for each, k in rows], complex),
         **_ranked(_joined(_by_vectors(rows, probability, settings), others)),
         unstated_scatter=settings.unstated_scatter, **_remedies(rows, attempt, settings, context),
         left_out=list(LEFT_OUT), left_out_reason=list(LEFT_OUT.values()))

@@ -48,6 +48,7 @@ def test_the_modes_are_the_strongest_of_each_frequency(brake, made):
     first = np.flatnonzero(modes.unstable_first == np.arange(len(modes.unstable_first)))
     np.testing.assert_array_equal(made.mode, first[:2])
     np.testing.assert_allclose(made.root, modes.unstable_reduced[first[:2]], rtol=1e-8)
+    np.testing.assert_array_equal(made.mode_root, modes.unstable_root[first[:2]])
     where = modes.unstable_operating[first[:2]]
     np.testing.assert_array_equal(made.pressure, modes.operating_pressure[where])
     np.testing.assert_array_equal(made.friction, modes.operating_friction[where])

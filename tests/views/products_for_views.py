@@ -389,7 +389,8 @@ def sensitivities(stable=False):
     none = np.zeros(0)
     return filled(
         Sensitivities, mode=[0, 2], pressure=[2e6, 1e6], speed=[10.25, 8.5], friction=[0.6, 0.6],
-        root=[300 + 2j * np.pi * 10.9e3, 100 + 2j * np.pi * 3.2e3],
+        root=[302 + 2j * np.pi * 10.9e3, 101 + 2j * np.pi * 3.2e3],
+        mode_root=[300 + 2j * np.pi * 10.9e3, 100 + 2j * np.pi * 3.2e3],
         parameter=["structure.joints.shim_stiffness", "structure.pad.lining_loss_factor", "friction",
                    "structure.disc.density", "friction_over_pressure"], unit=["N/m", "1", "1", "kg/m^3", "1"],
         method=["analytic"] * 5, value=value,

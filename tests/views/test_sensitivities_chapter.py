@@ -19,8 +19,8 @@ def plain(text):
 def test_the_sentence_says_what_matters_most_and_what_makes_it_stable():
     said = plain(statement(small.sensitivities()))
     assert said.startswith("What matters most for the mode at 10.9 kHz (growth rate 300 1/s at 2 MPa and 10.25 rad/s)"
-                           " is the shim stiffness: one standard deviation more of it (30 %) adds 120 1/s, then the lining"
-                           " loss factor (50 % takes away 60 1/s) and friction (2 % adds 30 1/s).")
+                           " is the shim stiffness: one standard deviation more of it (30 %) adds 120 1/s, then the"
+                           " lining loss factor (50 % takes away 60 1/s) and friction (2 % adds 30 1/s).")
     assert said.endswith("It becomes stable with friction 30 % lower (0.6 to 0.42); other modes are to be computed anew"
                          " then.")
 
@@ -35,7 +35,8 @@ def test_what_was_tried_in_vain_is_not_called_a_remedy():
 def test_the_table_follows_the_ranks_and_tells_assumed_scatter():
     table = chapter(small.sensitivities(), None, LOOK).tables[0]
     rows = [tuple(map(plain, row)) for row in table.rows]
-    assert rows[0] == ("shim stiffness", "50 N/µm", "30 %", "+120 ± 6", "+4", "−75 %", "structure.joints.shim_stiffness")
+    assert rows[0][:6] == ("shim stiffness", "50 N/µm", "30 %", "+120 ± 6", "+4", "−76 %")
+    assert rows[0][6] == "structure.joints.shim_stiffness"
     assert rows[3][2] == "5 %, assumed" and rows[4][2] == "0.004" and rows[4][5] == "—"
     assert [row[0] for row in rows] == ["shim stiffness", "lining loss factor", "friction", "disc density",
                                         "friction over pressure"]

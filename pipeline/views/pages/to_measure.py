@@ -109,6 +109,6 @@ def _derived(product, name, source):
     if value not in parameters or not product.known[0, parameters.index(value)]:
         return UNKNOWN
     k = parameters.index(value)
-    change, frequency = float(product.change[0, k]), quantity(product.root[0].imag / (2 * np.pi), "Hz", 3)
+    change, frequency = float(product.change[0, k]), quantity(product.mode_root[0].imag / (2 * np.pi), "Hz", 3)
     return (0, -abs(change)), (f"{'+' if change > 0 else ''}{quantity(change, '1/s', 2)} by one standard deviation, of"
                                f" the mode at {frequency}{'' if value == name else f', as {in_words(value)}'}")

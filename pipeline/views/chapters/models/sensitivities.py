@@ -41,8 +41,9 @@ def statement(product):
     if not len(product.mode):
         return ""
     first, *others = _order(product, 0)[:3]
-    most = (f"What matters most for the mode at {_frequency(product, 0)} (growth rate {_growth(product.root[0].real)}"
-            f" at {_where(product, 0)}) is {_the(product, first)}: one standard deviation more of it"
+    rate = _growth(product.mode_root[0].real)
+    most = (f"What matters most for the mode at {_frequency(product, 0)} (growth rate {rate} at {_where(product, 0)})"
+            f" is {_the(product, first)}: one standard deviation more of it"
             f" ({_scatter(product, 0, first)}) {_effect(product, 0, first)}")
     if others:
         most += ", then " + " and ".join(
@@ -76,12 +77,12 @@ def _the(product, parameter):
     return words if words.startswith("friction") or words == "pressure" else f"the {words}"
 
 
-def _frequency(product, mode):
-    return quantity(product.root[mode].imag / TWO_PI, "Hz", 3)
-
-
 def _growth(rate):
     return quantity(rate, "1/s", 3)
+
+
+def _frequency(product, mode):
+    return quantity(product.mode_root[mode].imag / TWO_PI, "Hz", 3)
 
 
 def _where(product, mode):
@@ -130,7 +131,7 @@ def _figure(product, mode):
     widths = [_scatter(product, mode, p) for p in shown]
     return Figure(
         pictures.tornado(product, mode, shown, names, widths),
-        f"Mode at {_frequency(product, mode)}, growth rate {_growth(product.root[mode].real)} at"
+        f"Mode at {_frequency(product, mode)}, growth rate {_growth(product.mode_root[mode].real)} at"
         f" {_where(product, mode)}: change of the growth rate by one standard deviation more of each value, which is"
         " written beside its bar. Red: less stable; blue: more stable; hatched: scatter not declared. Dashed: stable"
         " beyond.")
@@ -191,9 +192,8 @@ def _left_out(product):
 
 
 def _certainty(product, convergence):
-    width = np.where(product.known > 0, product.error * product.scatter, 0.0)
     text = ("Uncertainties hold the smoothing of the tables of contact law and friction map alone, up to"
-            f" {_growth(width.max())} here.")
+            f" {_growth((product.known * product.error * product.scatter).max())} here.")
     if convergence is not None and len(convergence.root):
         text += (" Finer contact, meshes and bases change growth rates by up to"
                  f" {percent(convergence.growth_share, 2)}: derivatives are hardly better known.")
