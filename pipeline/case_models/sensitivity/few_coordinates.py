@@ -75,7 +75,8 @@ class FewCoordinates:
         made = varied(case, friction_map, points, friction)
         model, area = made.model.at_speed(case.speed), made.model.contacts.area
         if law is None:
-            contact, state = (sliding := given_state(model, made.friction)).contact, sliding.friction
+            sliding = given_state(model, made.friction)
+            contact, state = sliding.contact, sliding.friction
         else:
             contact = Preload(*law(case.factors.contact_stiffness, law.closure), law.closure)
             state = made.friction(contact.force / area, abs(model.sliding_speed))
