@@ -12,6 +12,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError
 from pipeline.contract.units import TURNED
+from pipeline.physics.virtual_rig.band_limited import refined
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.sensor import measurand
 
@@ -113,26 +114,18 @@ def _recorded(name, run, settings, model_inputs):
     inputs |= {key: led(courses[name], np.arange(count) / rate, f"bench.courses.{key}.{name}")
                for key, courses in settings.courses.items() if name in courses}
     drive = None if settings.drive is None else _fed(settings.drive, run)
+    if settings.drive is not None and settings.drive.hold == "band_limited":
+        drive = refined(drive, 1)
     if settings.drive is not None and settings.drive.hold == "step":
         raise ConfigError("bench.drive.hold", "linear or band_limited: a speed that jumps takes an infinite force",
                           "step", "feed the measured speed, or the position with derivative: true")
     conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
     compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
-    holds = tuple(key for key, given in settings.inputs.items() if given.hold == "step")
-    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions, held=holds)
+    held, within = (tuple(key for key, given in settings.inputs.items() if given.hold == hold)
+                    for hold in ("step", "band_limited"))
+    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions, held=held, band_limited=within)
     return Recorded(plan, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts], float),
                     compared, str(run.repeat_of))
-
-
-def joined(samples, hold):
-    """Samples (n,) that what lies between them (straight lines, or held values) turns into what was applied.
-
-    Straight lines shape a spectrum by sinc^2 (f / rate), which is taken off ``band_limited`` samples beforehand.
-    """
-    samples = np.array(samples, float)
-    if hold == "band_limited":
-        return np.fft.irfft(np.fft.rfft(samples) / np.sinc(np.fft.rfftfreq(len(samples))) ** 2, len(samples))
-    return samples
 
 
 def _fed(given, run):
@@ -142,7 +135,7 @@ def _fed(given, run):
     samples = np.interp(instants, instants[kept], np.asarray(channel.samples)[kept])
     if given.derivative:
         samples = np.gradient(samples, 1 / float(channel.rate))
-    return (1.0 if given.gain is None else given.gain) * joined(samples, given.hold)
+    return (1.0 if given.gain is None else given.gain) * samples
 
 
 def _check_fed(name, run, settings, model_inputs):

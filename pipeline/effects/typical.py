@@ -10,7 +10,8 @@ from pipeline.effects.contact.contact_surface import sliding_angle
 from pipeline.effects.resolved import felt_mass
 from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
-from pipeline.physics.virtual_rig.response import respond, run_drive, run_inputs
+from pipeline.physics.virtual_rig.inputs import run_inputs
+from pipeline.physics.virtual_rig.response import respond, run_drive
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, NORMAL_FORCE, VELOCITY, Sensor
 
 #: kinds of location that an effect can have: ``contact`` is a group of contacts, ``contacts`` all together, ``pressed

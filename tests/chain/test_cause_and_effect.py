@@ -33,6 +33,7 @@ def test_a_changed_stiffness_changes_the_squeal(copy, finished, change):
     assert np.abs(levels(copy, change) - before).max() > VISIBLE
 
 
+@pytest.mark.slow
 def test_another_scan_changes_the_squeal(copy, tmp_path):
     first = levels(copy, scan(tmp_path / "first.txt", 1))
     assert np.abs(levels(copy, scan(tmp_path / "second.txt", 2)) - first).max() > VISIBLE

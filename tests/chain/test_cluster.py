@@ -47,6 +47,7 @@ def worker(address, count, folder, code=ROOT):
                    "--local-directory", str(folder), code=code)
 
 
+@pytest.mark.slow
 def test_the_same_bits_come_back(tmp_path, finished):
     with scheduler() as started:
         address = address_of(started)
@@ -55,6 +56,7 @@ def test_the_same_bits_come_back(tmp_path, finished):
     assert contents(tmp_path / "run") == contents(finished)
 
 
+@pytest.mark.slow
 def test_a_trial_is_solved_alike(tmp_path):
     here, there = their_set(tmp_path / "here"), their_set(tmp_path / "there")
     brakechain("trial", "solve", here, "--methods", "diagnosis", "--workers", 1)

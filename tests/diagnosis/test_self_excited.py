@@ -22,7 +22,8 @@ def asked(hidden=None, **more):
 
 @pytest.mark.parametrize("hidden, verdict", [
     ({}, "parameters"), ({"falling_friction": {"contact": {"rise": 0.8, "decay_speed": "0.1 m/s"}}}, "missing"),
-    ({"runout": {"contact": {"amplitude": "3 um", "order": 1, "phase": "0.7 rad"}}}, "unknown")])
+    pytest.param({"runout": {"contact": {"amplitude": "3 um", "order": 1, "phase": "0.7 rad"}}}, "unknown",
+                 marks=(pytest.mark.slow, pytest.mark.study))])
 def test_what_was_hidden_is_named_and_wrong_values_are_not_physics(hidden, verdict):
     """One turn alone cannot show runout at two operating points: unknown, not named."""
     told = solved(asked(hidden), kept=2, draws=2000, starts=(-1.0, 1.0))

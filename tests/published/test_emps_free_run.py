@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from pipeline.case_models.force_balance import measured_start
-from pipeline.case_models.runs import Recorded, joined
+from pipeline.case_models.runs import Recorded
 from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Wave
@@ -37,7 +37,7 @@ def bench(mass, damping, offset, friction):
 @pytest.mark.study
 def test_the_completed_model_follows_25_s_within_5_mm():
     force, place = recorded("DATA_EMPS")
-    run = Run("record", (len(force) - 1) / RATE, RATE, {"input_0": joined(force, "step")})
+    run = Run("record", (len(force) - 1) / RATE, RATE, {"input_0": force}, held=("input_0",))
     seen = Recorded(run, ("q",), ("m",), place[None], np.ones((1, len(place)), bool), "")
     run = replace(run, start=measured_start(bench(95.0, 200.0, 0.0, 0.0), seen))
 

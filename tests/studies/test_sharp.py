@@ -32,6 +32,8 @@ def test_only_what_is_hidden_at_its_place_is_right():
     assert "1 of 1" in table([(plan, True, 9.0)])[0]
 
 
+@pytest.mark.slow
+@pytest.mark.study
 def test_coulomb_friction_that_really_sticks_is_named_at_its_joint():
     """Fifty samples in a period, against the laws that are next to it."""
     plan = Plan("coulomb", 1, 0.05)
@@ -41,6 +43,8 @@ def test_coulomb_friction_that_really_sticks_is_named_at_its_joint():
     assert answer["fit"]["held_out"]["after"] < 1.1 * answer["fit"]["held_out"]["noise_floor"]
 
 
+@pytest.mark.slow
+@pytest.mark.study
 def test_a_play_in_little_noise_is_found_from_far_off():
     """The nominal model is hundreds of noise powers off, and fits of the play begin over short parts of the runs."""
     plan = Plan("backlash", 0, 0.01)

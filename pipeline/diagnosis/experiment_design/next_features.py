@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.diagnosis.experiment_design.next_run import Planned, changed, words
-from pipeline.physics.virtual_rig.response import at_begin, input_unit, stated_inputs
+from pipeline.physics.virtual_rig.inputs import input_unit, stated_inputs
+from pipeline.physics.virtual_rig.response import at_begin
 
 _LIFTED = "hammer, lifted"
 #: factors on the one load or speed that was recorded, where there is only one

@@ -18,8 +18,9 @@ from pipeline.contract.units import to_si
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.planning.experiment_choice import choose, predicted
 from pipeline.inference.problem import Observed
+from pipeline.physics.virtual_rig.inputs import input_unit, stated_inputs
 from pipeline.physics.virtual_rig.normal_load import CONDITION as NORMAL_LOAD
-from pipeline.physics.virtual_rig.response import Run, input_unit, run_drive, stated_inputs
+from pipeline.physics.virtual_rig.response import Run, run_drive
 
 #: factor on the speed of the drive, whether it is constant or recorded
 DRIVE = "drive"

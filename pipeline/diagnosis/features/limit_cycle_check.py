@@ -16,8 +16,9 @@ from pipeline.diagnosis.signals.localisation import fitted
 from pipeline.physics.signals.squeal_features import GROWING, SATURATED, agree, means, motion_features, saturated, state
 from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
 from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.virtual_rig.inputs import stated_inputs
 from pipeline.physics.virtual_rig.normal_load import loaded
-from pipeline.physics.virtual_rig.response import at_begin, run_friction, stated_inputs
+from pipeline.physics.virtual_rig.response import at_begin, run_friction
 from pipeline.physics.virtual_rig.sensor import FRICTION_FORCE, NORMAL_FORCE, Sensor
 
 #: who squeals, in the order of the tables

@@ -21,7 +21,8 @@ from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.run_parameters import on_all_runs
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import localisation
-from pipeline.physics.virtual_rig.response import run_drive, run_inputs
+from pipeline.physics.virtual_rig.inputs import run_inputs
+from pipeline.physics.virtual_rig.response import run_drive
 
 #: octaves below the highest frequency of the records that are bands of their own
 OCTAVES = 8

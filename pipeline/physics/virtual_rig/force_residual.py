@@ -21,7 +21,8 @@ from pipeline.physics.time_stepping.coupled_solver import advance_wear, no_memor
 from pipeline.physics.time_stepping.element_forces import element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import alone, wave_table
 from pipeline.physics.time_stepping.normal_laws import force_along
-from pipeline.physics.virtual_rig.response import holding, run_drive, run_friction, run_inputs
+from pipeline.physics.virtual_rig.inputs import holding, run_inputs
+from pipeline.physics.virtual_rig.response import run_drive, run_friction
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 _SMALLEST_SHARE = 1e-9

@@ -6,7 +6,6 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, changed
@@ -14,6 +13,7 @@ from pipeline.physics.friction.dry_friction import Friction, under
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.simulate import History, Start, stepper
+from pipeline.physics.virtual_rig.inputs import holding, resolved, run_inputs
 from pipeline.physics.virtual_rig.normal_load import loaded
 from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 
@@ -27,9 +27,10 @@ class Run:
     rad/s (None: that of the model).
 
     Samples are at ``sample_rate`` Hz from time 0, linear between; those of inputs named in ``held`` are held until the
-    next. ``conditions`` {name: value} stand in for inputs of their names, ``speed`` for the drive, ``normal_load`` for
-    the loads of friction joints; friction may depend on others. ``start``: where the bodies are at time 0, else as the
-    bench says. ``pulses`` {input: HalfSine} act on top of the inputs, and are resolved by the steps of the bench.
+    next, those named in ``band_limited`` hold nothing above half that rate. ``conditions`` {name: value} stand in for
+    inputs of their names, ``speed`` for the drive, ``normal_load`` for the loads of friction joints; friction may
+    depend on others. ``start``: where the bodies are at time 0, else as the bench says. ``pulses`` {input: HalfSine}
+    act on top of the inputs. Steps of the bench resolve pulses and what is band-limited.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Run:
     conditions: dict = field(default_factory=dict)
     start: Start | None = None
     held: tuple = ()
+    band_limited: tuple = ()
     pulses: dict = field(default_factory=dict)
 
     def __post_init__(self):
@@ -184,7 +186,7 @@ class Responder:
         bench = self.bench
         step = run.step(bench.step) / self._finer
         parts = round(1 / run.sample_rate / step)
-        driven, inputs = _resolved(bench, run, parts)
+        driven, inputs = resolved(bench, run, parts)
         speed, first = at_begin(bench, run)
         under_load = loaded(bench, run)
         friction = run_friction(under_load, run)
@@ -213,68 +215,6 @@ def at_begin(bench, run):
     """(speed of the drive in rad/s, inputs (i,) in N) with which a run begins."""
     return (float(np.ravel(run_drive(bench, run))[0]),
             np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)]))
-
-
-def run_inputs(bench, run):
-    """[N, one value or samples (samples,)] of each input of the model, in its order; 0 N where nothing is said.
-
-    Of an end that moves by u the force k u + c u' in its joint.
-    """
-    return [_end_force(bench, run, name, value) if name in bench.model.moved_ends else value
-            for name, value in zip(bench.model.input_name, stated_inputs(bench, run), strict=True)]
-
-
-def stated_inputs(bench, run):
-    """[one value or samples (samples,)] of each input: N, or m where it moves the end of a joint."""
-    unknown = {*run.inputs, *run.pulses} - set(bench.model.input_name)
-    if unknown:
-        raise ConfigError(f"run {run.name}: input", f"one of {', '.join(bench.model.input_name)}",
-                          ", ".join(sorted(unknown)))
-    return [_struck(run.inputs.get(n, run.conditions.get(n, 0.0)), run, n) for n in bench.model.input_name]
-
-
-def _struck(value, run, name):
-    """``value`` of an input with its pulse on top, where a Run has one there."""
-    return value + run.pulses[name].force(run.samples, run.sample_rate) if name in run.pulses else value
-
-
-def _resolved(bench, run, parts):
-    """(Run, its inputs), of a run with pulses at ``parts`` times its rate, so that the steps resolve them."""
-    if not run.pulses:
-        return run, run_inputs(bench, run)
-    finer = replace(run, sample_rate=parts * run.sample_rate, inputs={}, drive=None)
-    smooth = run_inputs(bench, replace(run, pulses={}))
-    return finer, [_struck(_between(value, run, finer, name in run.held), finer, name)
-                   for name, value in zip(bench.model.input_name, smooth, strict=True)]
-
-
-def _between(value, run, finer, held):
-    if not np.ndim(value):
-        return value
-    if held:
-        return np.append(np.repeat(value[:-1], (finer.samples - 1) // (run.samples - 1)), value[-1])
-    return np.interp(finer.time, run.time, value)
-
-
-def input_unit(bench, name):
-    """Unit in which runs state an input: m of a moved end, else N."""
-    return "m" if name in bench.model.moved_ends else "N"
-
-
-def _end_force(bench, run, name, displacement):
-    _, stiffness, damping = bench.joint(bench.model.moved_ends[name])
-    if not np.ndim(displacement) or not damping:
-        return stiffness * displacement
-    if name in run.held:
-        raise ConfigError(f"run {run.name}: input {name}", "linear or band_limited, because its joint has a damper",
-                          "hold: step", "a displacement that jumps takes an infinite force of a damper")
-    velocity = scipy.interpolate.CubicSpline(run.time, displacement)(run.time, 1)
-    return stiffness * displacement + damping * velocity
-
-
-def holding(bench, run):
-    """(i,) True for inputs whose samples are held until the next."""
-    return np.array([name in run.held for name in bench.model.input_name], bool)
 
 
 def run_drive(bench, run):

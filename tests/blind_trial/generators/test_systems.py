@@ -9,6 +9,9 @@ from pipeline.blind_trial.generators.systems import CLASSES, SYSTEMS, Draw, _apa
 from pipeline.recordings.neutral import read_neutral
 from tests.blind_trial.generators.imported import imported
 
+#: cases whose draws are refitted until what they hide can be seen
+LONG = (pytest.mark.slow, pytest.mark.study)
+
 
 @pytest.mark.parametrize("system", SYSTEMS.values(), ids=lambda s: s.name)
 def test_what_a_system_hides_is_sorted_into_known_classes(system):
@@ -25,8 +28,9 @@ def test_no_generator_is_made_of_the_models_of_the_diagnosis():
         "pipeline.systems", "stages"))]
 
 
-@pytest.mark.parametrize("kind, hidden", [("control", ()), ("effect", ("coulomb",)), ("sensor", ("clipping",)),
-                                          ("pair", ("coulomb", "attached_mass"))])
+@pytest.mark.parametrize("kind, hidden", [
+    ("control", ()), pytest.param("effect", ("coulomb",), marks=LONG), ("sensor", ("clipping",)),
+    pytest.param("pair", ("coulomb", "attached_mass"), marks=LONG)])
 def test_a_forced_rig_leaves_two_files_and_tells_its_truth(tmp_path, kind, hidden):
     draw = Draw(3, "forced_rig", kind, hidden, 0.3, 0.01)
     truth = SYSTEMS["forced_rig"].write(draw, tmp_path / "case")
@@ -37,7 +41,7 @@ def test_a_forced_rig_leaves_two_files_and_tells_its_truth(tmp_path, kind, hidde
     assert np.std(first) > 0
 
 
-@pytest.mark.parametrize("kind, hidden", [("control", ()), ("sensor", ("clipping",))])
+@pytest.mark.parametrize("kind, hidden", [("control", ()), pytest.param("sensor", ("clipping",), marks=LONG)])
 def test_a_seed_draws_the_same_forced_rig_again_and_another_seed_another(tmp_path, kind, hidden):
     draw = Draw(3, "forced_rig", kind, hidden, 0.3, 0.01)
     truth = SYSTEMS["forced_rig"].write(draw, tmp_path / "case")

@@ -10,6 +10,8 @@ from pipeline.views.pages.sound_file import wav
 
 #: spectrograms and rows that are shown
 _SHOWN, _ROWS = 6, 60
+#: ratio of frequencies up to which two channels hear one tone
+_ALIKE = 1.01
 _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "temperature"))
 
 
@@ -32,6 +34,23 @@ def squeals(product):
     rows = np.flatnonzero(pictures.heard(product))
     sound = product.record_kind[product.event_record[rows]] == "sound"
     return rows[np.lexsort((-product.event_level[rows], ~sound))]
+
+
+def counted(product):
+    """The same, each squeal once, however many channels of its run have it at that time and frequency."""
+    kept = np.array([], int)
+    for event in squeals(product):
+        kept = kept if _same(product, event, kept).any() else np.append(kept, event)
+    return kept
+
+
+def _same(product, event, others):
+    """(k,) which of ``others`` (k,) are the squeal ``event`` in another channel."""
+    record, begin, low, high = (getattr(product, f"event_{n}") for n in ("record", "start", "lowest", "highest"))
+    end, run = begin + product.event_duration, product.record_run[record]
+    return ((record[others] != record[event]) & (run[others] == run[event])
+            & (np.maximum(begin[others], begin[event]) < np.minimum(end[others], end[event]))
+            & (np.maximum(low[others], low[event]) < _ALIKE * np.minimum(high[others], high[event])))
 
 
 def runs(product):
@@ -57,7 +76,7 @@ def conclusion(product):
     """What was found, in sentences."""
     if not len(product.record_run):
         return "No channel of the recordings measures sound or acceleration at a rate that reaches the squeal band."
-    rows = squeals(product)
+    rows = counted(product)
     noisy, every = runs(product)
     others = {kind: np.count_nonzero(product.event_kind == kind) for kind in pictures.KINDS if kind != "squeal"}
     beside = ", ".join(f"{count} of {kind}" if kind in ("broadband", "series") else plural(count, kind)
@@ -71,11 +90,17 @@ def conclusion(product):
                 + (f" Told beside: {beside}." if beside else ""))
     first = rows[0]
     return (f"{plural(len(rows), 'squeal event')} in {len(noisy)} of {plural(len(every), 'run')}"
-            f" ({percent(len(noisy) / len(every), 2)}). The loudest: {number(product.event_level[first], 3)}"
-            f" {_unit(product, product.event_record[first])} at {quantity(product.event_frequency[first], 'Hz', 4)} for"
+            f" ({percent(len(noisy) / len(every), 2)}){_heard_by(product)}. The loudest:"
+            f" {number(product.event_level[first], 3)} {_unit(product, product.event_record[first])} at"
+            f" {quantity(product.event_frequency[first], 'Hz', 4)} for"
             f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
             f"{_at(product, first)}.{_bands(product, rows)}{near_modes(product, rows)}"
             + (f" Told beside: {beside}." if beside else ""))
+
+
+def _heard_by(product):     # where one squeal may be an event in several channels
+    channels = set(product.record_channel[product.event_record[squeals(product)]])
+    return f", each counted once among {len(channels)} channels" if len(channels) > 1 else ""
 
 
 def _searched(product):

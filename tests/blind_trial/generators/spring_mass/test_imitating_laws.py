@@ -40,13 +40,16 @@ def test_a_law_that_bends_the_other_way_is_near_where_noise_hides_the_rest():
     assert far.left > 5 * near.left
 
 
+@pytest.mark.slow
+@pytest.mark.study
 def test_the_truth_of_a_case_says_what_cannot_be_told_from_it():
     told = case_files.truth(softening(0.1))
     assert told["class"] == "foreign" and told["left"] < APART
     assert told["effects"][0]["alike"] == [{"name": "cubic_stiffness", "place": "link_0"}]
 
 
-@pytest.mark.parametrize("hidden", ["impact", "parametric_stiffness"])
+@pytest.mark.parametrize("hidden", [
+    pytest.param("impact", marks=(pytest.mark.slow, pytest.mark.study)), "parametric_stiffness"])
 def test_what_has_no_kin_is_taken_for_nothing(hidden):
     case = made(11, hidden, level=0.1, masses=1, change=0.1)
     assert rivals(case) == [] and case_files.truth(case)["left"] == min(case.left)
@@ -61,6 +64,8 @@ def test_of_a_pair_each_leaves_what_the_other_alone_cannot_explain():
     assert case_files.truth(pair)["left"] == pytest.approx(gap)
 
 
+@pytest.mark.slow
+@pytest.mark.study
 def test_of_a_pair_far_above_the_noise_nothing_is_refitted():
     pair = made(12, ("cubic_stiffness", "backlash"), (0, 0), level=0.001, masses=1, change=0.05)
     assert beside_the_other(pair) == pair.left

@@ -40,6 +40,8 @@ def test_nothing_is_hidden_at_the_spring_whose_wall_is_moved():
     assert {_index(random, PIECES["attached_mass"], bench, 0) for _ in range(40)} == {1}
 
 
+@pytest.mark.slow
+@pytest.mark.study
 def test_a_wrong_value_is_far_off_and_a_faulty_sensor_is_one_of_the_channels():
     wrong = made(2, "wrong_value")
     assert wrong.far in wrong.truth.names
