@@ -20,6 +20,7 @@ from pipeline.case_models.scatter import (
     friction_errors,
     law_in_words,
     stability_settings,
+    standard_deviation,
 )
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.stability.draw_statistics import band_of, first_order, rate_interval, third_octaves
@@ -84,8 +85,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     checked = context.map(partial(_checked, points), _checks(cases, drawn, points, settings), "whole model")
     return Probability(
         source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
-        value=values, pressure=np.repeat(model.pressure, len(points.speeds)),
-        speed=np.tile(points.speeds, len(model.pressure)),
+        scatter=[standard_deviation(s, errors) for s in settings.sources], value=values,
+        pressure=np.repeat(model.pressure, len(points.speeds)), speed=np.tile(points.speeds, len(model.pressure)),
         **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),
         **_accuracy(checked), least_growth=settings.least_growth, squeal_from=points.squeal_from)
 

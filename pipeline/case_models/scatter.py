@@ -125,6 +125,13 @@ def law_in_words(source, errors):
     return f"lognormal, coefficient of variation {source.variation:g}"
 
 
+def standard_deviation(source, errors):
+    """Standard deviation of what a Source adds to friction, or of its factor: of its logarithm if that is normal."""
+    if source.kind in ADDITIONS:
+        return _deviation(source, errors.std)
+    return np.diff(source.range)[0] / np.sqrt(12) if source.distribution == "uniform" else _lognormal(source)[1]
+
+
 def _deviation(source, deviations):
     if source.variation is None and source.kind not in deviations:
         raise ConfigError(f"sources: {source.name}.variation", "a standard deviation, as there is no friction map",

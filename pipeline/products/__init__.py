@@ -34,7 +34,7 @@ from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
 from pipeline.products.pages import Comparison, Report
 from pipeline.products.pin_on_disc import LockIn, PinOnDisc
-from pipeline.products.predicted_squeal import Countermeasures, LimitCycle, NoiseMatrix
+from pipeline.products.predicted_squeal import Countermeasures, LimitCycle, NoiseMatrix, Sensitivities
 from pipeline.products.recording import (
     Channel,
     Condition,
@@ -70,5 +70,5 @@ __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "BenchStops", "Bod
            "Condition", "Convergence", "Countermeasures", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
-           "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
+           "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Sensitivities", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

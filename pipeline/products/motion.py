@@ -70,12 +70,13 @@ class Convergence:
     converged: Array = count("", "1 if all unstable modes are those of all refined models within the tolerances")
 
 
-@product(version=2)
+@product(version=3)
 class Probability:
     """Unstable modes over the scatter of a brake: seeded draws, and what they say of each operating point."""
 
     source: Array = text("source", "what scatters")
     origin: Array = text("source", "law of its scatter: distribution and width")
+    scatter: Array = quantity("1", "source", "standard deviation of what it adds to friction, or of its factor; of the logarithm of a lognormal one")
     value: Array = quantity("1", "draw source", "drawn factor on the nominal value; of friction the change of mu, or of its slope over a logarithm")
     pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
     speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")

@@ -43,6 +43,41 @@ class LimitCycle:
 
 
 @product(version=1)
+class Sensitivities:
+    """What moves the growth rate of each unstable mode: its derivatives to the values of the case.
+
+    Roots are those of the reduced model with loss factors as imaginary stiffness. Names of values are those of settings
+    where one setting is meant, units SI.
+    """
+
+    mode: Array = count("mode", "index of the unstable mode in complex_modes; of those of one frequency the strongest")
+    pressure: Array = quantity("Pa", "mode", "pressure of its operating point")
+    speed: Array = quantity("rad/s", "mode", "speed of the drive there")
+    friction: Array = quantity("1", "mode", "friction coefficient there, mean weighted by normal force")
+    mode_root: Array = quantity("1/s", "mode", "its root in complex_modes, that of the finite elements if it was solved for there", complex)
+    root: Array = quantity("1/s", "mode", "the root that is derived", complex)
+    parameter: Array = text("parameter", "values that are varied")
+    unit: Array = text("parameter", "SI unit of the value")
+    method: Array = text("parameter", "analytic: by left and right vectors; differences: the case computed again")
+    source: Array = text("parameter", "source of scatter in probability that it belongs to; empty without one")
+    value: Array = quantity("1", "mode parameter", "the value, in its unit")
+    derivative: Array = quantity("1/s", "mode parameter", "change of the root per unit of the value; in the real part the growth rate", complex)
+    error: Array = quantity("1/s", "mode parameter", "uncertainty of the real part: what doubling the distance changes over which contact law and friction map are smoothed, or half the second difference")
+    known: Array = count("mode parameter", "0 where the mode was not found again in a case with another value")
+    scatter: Array = quantity("1", "mode parameter", "standard deviation of the value, in its unit")
+    declared: Array = count("parameter", "1 where the case declares that scatter, 0 where it is unstated_scatter of the value")
+    unstated_scatter: Array = quantity("1", "", "standard deviation over the value where the case declares none")
+    change: Array = quantity("1/s", "mode parameter", "change of the growth rate by one standard deviation more, to first order")
+    rank: Array = count("mode parameter", "rank by the magnitude of that change, from 1; 0 where not known")
+    remedy_mode: Array = count("remedy", "mode (row of 'mode') that another value makes stable or less unstable")
+    remedy_parameter: Array = count("remedy", "that value, as row of 'parameter'")
+    remedy_value: Array = quantity("1", "remedy", "what it is then, in its unit")
+    remedy_root: Array = quantity("1/s", "remedy", "root of the mode then, computed anew in the reduced model", complex)
+    left_out: Array = text("left_out", "values without a derivative")
+    left_out_reason: Array = text("left_out", "why, and where their influence shows")
+
+
+@product(version=1)
 class NoiseMatrix:
     """A schedule of brake applications: how likely each squeals over the scatter of the brake, beside the bench.
 

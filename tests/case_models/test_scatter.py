@@ -15,6 +15,7 @@ from pipeline.case_models.scatter import (
     factors_of,
     family,
     friction_errors,
+    standard_deviation,
 )
 from pipeline.contract import ConfigError
 from tests.stages.small_brake import small_brake, small_map
@@ -39,6 +40,18 @@ def test_contradictions_are_refused(given, message):
 
 def test_defaults_are_consistent():
     check_sources(sources(*DEFAULT), "probability.sources")
+
+
+@pytest.mark.exact
+def test_the_standard_deviation_is_that_of_the_draws():
+    """Of the logarithm of lognormal factors, of uniform ones, and of what is added to friction."""
+    given = sources({"kind": "damping_speed", "range": (0.5, 2)}, {"kind": "joint_loss", "variation": 0.5},
+                    {"kind": "contact_stiffness", "range": (0.7, 1.3), "distribution": "uniform"},
+                    {"kind": "friction", "variation": 0.02}, {"kind": "friction_over_speed"})
+    errors = FrictionErrors({"friction_over_speed": 0.01})
+    drawn = draw_values(given, errors, 100_000, np.random.default_rng(3))
+    drawn[:, :2] = np.log(drawn[:, :2])
+    np.testing.assert_allclose([standard_deviation(s, errors) for s in given], drawn.std(axis=0), rtol=0.01)
 
 
 @pytest.mark.parametrize("kind", ["joint_stiffness", "joint_loss", "body_loss"])

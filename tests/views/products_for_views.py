@@ -34,6 +34,7 @@ from pipeline.products import (
     Response,
     ResponseFunctions,
     Rupture,
+    Sensitivities,
     Spectrogram,
     Squeal,
     Structure,
@@ -378,6 +379,28 @@ def probability(draws=60):
         sensitivity=[0.05, 0.2, 0.7], sensitivity_error=[0.02, 0.03, 0.05], trend=[0.1, -0.3, 0.9],
         checked_root=[300.5 + 50e3j], whole_root=[300 + 50.001e3j], checked_draws=4, missed=0, least_growth=0.0,
         squeal_from=1e3)
+
+
+def sensitivities(stable=False):
+    """Two modes of 300 and 100 1/s; stiffer shims add most to the first, whose growth 30 % less friction takes away."""
+    change = np.array([[120.0, -60.0, 30.0, -5.0, 0.0], [-10.0, 20.0, 40.0, 0.0, 0.0]])
+    value = np.tile([5e7, 0.03, 0.6, 7200.0, 0.0], (2, 1))
+    width = np.tile([1.5e7, 0.015, 0.012, 360.0, 0.004], (2, 1))
+    none = np.zeros(0)
+    return filled(
+        Sensitivities, mode=[0, 2], pressure=[2e6, 1e6], speed=[10.25, 8.5], friction=[0.6, 0.6],
+        root=[302 + 2j * np.pi * 10.9e3, 101 + 2j * np.pi * 3.2e3],
+        mode_root=[300 + 2j * np.pi * 10.9e3, 100 + 2j * np.pi * 3.2e3],
+        parameter=["structure.joints.shim_stiffness", "structure.pad.lining_loss_factor", "friction",
+                   "structure.disc.density", "friction_over_pressure"], unit=["N/m", "1", "1", "kg/m^3", "1"],
+        method=["analytic"] * 5, value=value,
+        source=["joint_stiffness:piston", "body_loss", "friction", "", "friction_over_pressure"],
+        derivative=change / width + 0j, error=0.05 * abs(change) / width, known=np.ones((2, 5), int),
+        scatter=width, declared=[1, 1, 1, 0, 1], unstated_scatter=0.05, change=change,
+        rank=[[1, 2, 3, 4, 5], [3, 2, 1, 4, 5]], remedy_mode=[] if stable else [0, 0],
+        remedy_parameter=[] if stable else [2, 1], remedy_value=none if stable else [0.42, 0.09],
+        remedy_root=none.astype(complex) if stable else [-3 + 68e3j, 40 + 68e3j],
+        left_out=["structure.*.poisson"], left_out_reason=["the reduced matrices do not follow it"])
 
 
 def line_evidence(draws=40):

@@ -19,6 +19,7 @@ from pipeline.views.figures import (
 )
 from pipeline.views.figures.bench import line_evidence, line_fit, measured_friction, noise_events
 from pipeline.views.figures.models import limit_cycle, lock_in, rupture, transient
+from pipeline.views.figures.models import sensitivities as derived
 from tests.views import products_for_views as small
 
 LINES = (16600.0, 17800.0)
@@ -49,6 +50,8 @@ PICTURES = {
     "probability": (probability.per_point, small.probability, "probability"),
     "probable bands": (probability.per_band, small.probability, "band_any"),
     "sensitivities": (lambda p: probability.sensitivities(p, list(p.source)), small.probability, "sensitivity"),
+    "tornado": (lambda p: derived.tornado(p, 0, [0, 1, 3], ["a", "b", "c"], ["1 %"] * 3), small.sensitivities,
+                "change"),
     "bayes factors": (lambda p: line_evidence.factors(p, list(p.hypothesis)), small.line_evidence, "factor"),
     "predicted tones": (lambda p: line_evidence.tones(p, list(p.hypothesis)), small.line_evidence, "tone"),
     "fit of lines": (lambda p: line_fit.before_after(p, list(p.hypothesis)), small.line_evidence, "tone"),

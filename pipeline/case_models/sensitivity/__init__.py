@@ -1,1 +1,1 @@
-"""Values of a brake by their names, and the matrices about steady sliding that they lead to."""
+"""Values of a brake by their names, derivatives of its roots to them, and which of them take growth from a mode."""

@@ -25,9 +25,12 @@ class Case:
     factors: Factors = Factors()
 
 
-def varied(case, friction_map, points):
-    """Family of a Case; ``points``: settings of its stability as of ``stability_settings``."""
+def varied(case, friction_map, points, friction=None):
+    """Family of a Case; ``points``: settings of its stability as of ``stability_settings``; ``friction``: a law of
+    pressure and speed in place of that of the map or the settings."""
     made = family(case.model, case.state, friction_map, points)
+    if friction is not None:
+        made = replace(made, friction=friction)
     made = replace(made, input_force=case.load * made.input_force)
     return made.at_speed(case.speed).varied(case.factors)
 
@@ -35,7 +38,11 @@ def varied(case, friction_map, points):
 def matrices(case, friction_map, points):
     """(M, C, K) each (n, n) of a Case about its own steady sliding, loss factors as imaginary stiffness."""
     made = varied(case, friction_map, points)
-    about, friction = about_sliding(made)
+    return matrices_about(made, *about_sliding(made))
+
+
+def matrices_about(made, about, friction):
+    """(M, C, K) of a Family ``made`` whose model is linearised ``about`` a sliding state with a FrictionState."""
     mass, damping, stiffness = about.linearised(friction, made.friction_damping, made.gyroscopic, made.centrifugal)
     return mass, damping, stiffness + 1j * made.imaginary_stiffness()
 

@@ -28,7 +28,7 @@ class Parameter:
     """A value, in SI ``unit``; derivatives are per change by ``reference``, the value itself unless that is 0.
 
     ``source``: what scatters with it, as the product Probability calls it, '' for nothing; ``changed(case, step)``: the
-    Case with the value larger by ``step`` references.
+    Case with the value larger by ``step`` references. ``of_bodies``: it changes matrices of bodies.
     """
 
     name: str
@@ -37,6 +37,7 @@ class Parameter:
     reference: float
     source: str
     changed: Callable
+    of_bodies: bool = False
 
 
 def parameters(case, structure, friction, points):
@@ -51,10 +52,11 @@ def parameters(case, structure, friction, points):
         Parameter("contact_stiffness", 1.0, "1", 1.0, "contact_stiffness", partial(_scaled, "contact_stiffness")),
         Parameter("complex_modes.damping_speed", points.damping_speed, "m/s", points.damping_speed, "damping_speed",
                   partial(_scaled, "damping_speed")),
-        Parameter("structure.pressures", pressure, "Pa", pressure, "", _loaded),
+        *((Parameter("structure.pressures", pressure, "Pa", pressure, "", _loaded),) if len(model.law_closure) else ()),
         Parameter("complex_modes.speeds", case.speed, "rad/s", case.speed, "", _faster)]
     found += _springs(model) + _joint_losses(model)
-    return found if structure is None else found + [Parameter(*each) for each in body_parameters(model, structure)]
+    bodies = [] if structure is None else body_parameters(model, structure)
+    return found + [Parameter(*each, True) for each in bodies]
 
 
 def _added(field, reference, case, step):

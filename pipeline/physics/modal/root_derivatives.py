@@ -3,6 +3,8 @@
 With y^H (s^2 M + s C + K) = 0 and matrices that change by dM, dC, dK,
 
     ds = - y^H (s^2 dM + s dC + dK) x / y^H (2 s M + C) x.
+
+P. Lancaster, Numer. Math. 6 (1964) 377.
 """
 
 from dataclasses import dataclass
@@ -22,11 +24,20 @@ class RootWithVectors:
     right: np.ndarray
     left: np.ndarray
 
+    def change_of(self, order, difference):
+        """ds (complex, 1/s) for a ``difference`` (n, n), dense or sparse, of the matrix that stands with s^order."""
+        return -complex(self.root**order * (self.left.conj() @ (difference @ self.right)))
+
     def change(self, difference):
         """ds (complex, 1/s) for the ``difference`` (dM, dC, dK) of the matrices, each (n, n)."""
-        mass, damping, stiffness = difference
-        moved = self.root**2 * (mass @ self.right) + self.root * (damping @ self.right) + stiffness @ self.right
-        return -complex(self.left.conj() @ moved)
+        return sum(self.change_of(order, each) for order, each in zip((2, 1, 0), difference, strict=True))
+
+
+def scaled(matrices, root, right, left):
+    """RootWithVectors of the ``matrices`` (M, C, K), dense or sparse, for vectors (n,) of any length."""
+    mass, damping, _ = matrices
+    slope = 2 * root * (mass @ right) + damping @ right
+    return RootWithVectors(root, right, left / (left.conj() @ slope).conj())
 
 
 def with_vectors(matrices, root, right):
@@ -39,4 +50,4 @@ def with_vectors(matrices, root, right):
     for _ in range(_INVERSE):
         left = scipy.linalg.lu_solve(factor, left, trans=2, check_finite=False)
         left = left / np.linalg.norm(left)
-    return RootWithVectors(root, right, left / (left.conj() @ slope).conj())
+    return scaled(matrices, root, right, left)

@@ -55,11 +55,19 @@ def beside_whole(case, factors, speed, below):
 
 def about_sliding(varied):
     """(SlidingModel about steady sliding, FrictionState of its linearisation)."""
-    if varied.has_law:
-        response = closure_response(varied.model, varied.centrifugal)
-        sliding = steady_sliding(varied.model, response, varied.input_force, varied.law_closure, varied.law_pressure,
-                                 varied.friction)
-    else:
-        sliding = given_state(varied.model, varied.friction)
-    friction = sliding.friction if varied.friction_slopes else FrictionState(sliding.friction.coefficient)
-    return model_about(varied.model, sliding.contact, varied.damping_speed), friction
+    sliding = sliding_state(varied)
+    return model_about(varied.model, sliding.contact, varied.damping_speed), linearising(varied, sliding.friction)
+
+
+def sliding_state(varied):
+    """SlidingState of a Family in its whole model."""
+    if not varied.has_law:
+        return given_state(varied.model, varied.friction)
+    response = closure_response(varied.model, varied.centrifugal)
+    return steady_sliding(varied.model, response, varied.input_force, varied.law_closure, varied.law_pressure,
+                          varied.friction)
+
+
+def linearising(varied, friction):
+    """FrictionState that a Family is linearised with, in a sliding state with ``friction``."""
+    return friction if varied.friction_slopes else FrictionState(friction.coefficient)

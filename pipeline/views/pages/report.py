@@ -36,6 +36,7 @@ from pipeline.views.chapters.models import (
     matrix_modes,
     noise_matrix,
     rupture,
+    sensitivities,
     transient,
 )
 from pipeline.views.figures import complex_modes as stability_pictures
@@ -65,6 +66,7 @@ CHAPTERS = {
     "convergence": (convergence.chapter, ()),
     "limit_cycle": (limit_cycle.chapter, ()),
     "probability": (probability.chapter, ()),
+    "sensitivities": (sensitivities.chapter, ("convergence",)),
     "countermeasures": (countermeasures.chapter, ()),
     "multibody": (pad_motion.chapter, ()),
     "transient": (transient.chapter, ()),

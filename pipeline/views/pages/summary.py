@@ -15,7 +15,7 @@ from pipeline.views.chapters.bench import (
     orders,
 )
 from pipeline.views.chapters.friction import outside_computed
-from pipeline.views.chapters.models import countermeasures, matrix_modes, noise_matrix
+from pipeline.views.chapters.models import countermeasures, matrix_modes, noise_matrix, sensitivities
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
 from pipeline.views.chapters.unstable_modes import (
@@ -58,7 +58,8 @@ def verdict(products, tuned_settings):
         return _of_matrix(products["noise_matrix"], products, tuned_settings)
     headline, tone = _headline(products)
     answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
-               ("What helps", _helps(products)), ("How certain", _sure(products)),
+               ("What to change", _matters(products)), ("What helps", _helps(products)),
+               ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
@@ -217,6 +218,12 @@ def _fed(modes):
             f" from {words(modes.growth_term[takes])}."
             + (f" {explanation(modes, 0)}" if 0 in modes.followed_mode else "")
             + (f" {low}" if (low := below_squeal(modes)) else ""))
+
+
+def _matters(products):
+    """What moves the mode that grows most, and what makes it stable."""
+    product = products.get("sensitivities")
+    return "" if product is None else sensitivities.statement(product)
 
 
 def _likely(products):

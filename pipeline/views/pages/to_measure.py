@@ -2,8 +2,11 @@
 
 from fnmatch import fnmatchcase
 
+import numpy as np
+
 from pipeline.views.chapters.chapter import Table
-from pipeline.views.figures.number_format import percent, plural
+from pipeline.views.chapters.models.sensitivities import in_words
+from pipeline.views.figures.number_format import percent, plural, quantity
 from pipeline.views.pages.case_settings import written
 
 DEFAULT, ASSUMED = "default", "assumed"
@@ -26,15 +29,22 @@ DECIDING = (
     ("structure.disc.*radius", ""), ("structure.disc.*thickness", ""), ("structure.pad.*thickness", ""),
     ("structure.pad.*radius", ""), ("structure.pad.angle", ""), ("structure.*.young", ""),
     ("structure.*.backplate_young", ""), ("structure.*density", ""))
+#: values of which another is what the sensitivities know
+STANDS_FOR = (("structure.pad.lining_young_*", "structure.pad.lining_young"),
+              ("structure.pad.lining_shear_*", "structure.pad.lining_young"),
+              ("structure.pad.*density", "structure.pad.densities"))
 #: rows that are shown open
 _FIRST = 10
+#: as of ``_influence``, of a value of which nothing is known
+UNKNOWN = (1, 0.0), "—"
 
 
 def to_measure(case, products):
     """Tables of the values that decide the verdict of a brake and are defaults of the program, or assumed.
 
-    Ordered by what is known of their influence: the share of the variance of the growth rate of the source that they
-    belong to (probability), then what commonly matters. Empty for systems without such values.
+    Ordered by what is known of their influence: what one standard deviation of them changes in the growth rate of the
+    mode that grows most (sensitivities), or the share of the variance of the growth rate of the source that they belong
+    to (probability); then what commonly matters. Empty for systems without such values.
     """
     rows = _rows(case)
     if not rows:
@@ -77,11 +87,28 @@ def _rows(case):
 
 def _influence(products, rows):
     """{name: ((class, -size), words)}: what is known of the influence of each value, the best known first."""
-    probable, known = products.get("probability"), {}
+    derived, probable = products.get("sensitivities"), products.get("probability")
+    if derived is not None and len(derived.mode):
+        return {name: _derived(derived, name, source) for name, source, *_ in rows}
     shares = {} if probable is None or not len(probable.value) else dict(
         zip(map(str, probable.source), map(float, probable.sensitivity), strict=True))
-    for name, source, *_ in rows:
-        size = shares.get(source, shares.get(source.partition(":")[0])) if source else None
-        known[name] = ((1, 0.0), "—") if size is None else (
-            (0, -max(size, 0.0)), f"{percent(max(size, 0.0), 2)} of the variance of the growth rate, with its group")
-    return known
+    return {name: _share(shares.get(source, shares.get(source.partition(":")[0])) if source else None)
+            for name, source, *_ in rows}
+
+
+def _share(size):
+    return UNKNOWN if size is None else (
+        (0, -max(size, 0.0)), f"{percent(max(size, 0.0), 2)} of the variance of the growth rate, with its group")
+
+
+def _derived(product, name, source):
+    """Influence of the value called ``name`` on the mode that grows most, or of the one that stands for it."""
+    parameters = list(map(str, product.parameter))
+    value = name if name in parameters else next(
+        (known for pattern, known in STANDS_FOR if fnmatchcase(name, pattern)), source)
+    if value not in parameters or not product.known[0, parameters.index(value)]:
+        return UNKNOWN
+    k = parameters.index(value)
+    change, frequency = float(product.change[0, k]), quantity(product.mode_root[0].imag / (2 * np.pi), "Hz", 3)
+    return (0, -abs(change)), (f"{'+' if change > 0 else ''}{quantity(change, '1/s', 2)} by one standard deviation, of"
+                               f" the mode at {frequency}{'' if value == name else f', as {in_words(value)}'}")

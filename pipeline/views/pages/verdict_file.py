@@ -22,6 +22,7 @@ def verdict_text(verdict, products):
     document = {"schema": SCHEMA, "headline": verdict.headline,
                 "squeal_can_start": _can_start(modes) if given is None else len(given.roots.residual) > 0,
                 "probability": _probability(products.get("probability")),
+                "sensitivities": _sensitivities(products.get("sensitivities")),
                 "unstable_modes": _of_matrices(given) + ([] if modes is None else _unstable(modes)),
                 "convergence": None if refined is None else _convergence(refined),
                 "transient": _transient(products.get("limit_cycle")),
@@ -136,6 +137,20 @@ def _probability(product):
     return {"value": float(product.overall), "interval": list(map(float, product.overall_interval)),
             "draws": len(product.value), "operating_points": points, "third_octaves": bands,
             "sensitivity": _named(product.source, product.sensitivity)}
+
+
+def _sensitivities(product):
+    """Of each examined mode, what one standard deviation of each value adds to its growth rate; null without modes."""
+    if product is None or not len(product.mode):
+        return None
+    tried = [{"value": str(product.parameter[p]), "now": float(product.value[mode, p]), "then": float(value),
+              "mode": int(product.mode[mode]), "growth_rate": root.real} for mode, p, value, root in
+             zip(product.remedy_mode, product.remedy_parameter, product.remedy_value, product.remedy_root, strict=True)]
+    return {"modes": [{"mode": int(mode), "growth_rate": root.real, "frequency": root.imag / TWO_PI,
+                       "growth_per_standard_deviation": _named(product.parameter, change),
+                       "growth_per_unit": _named(product.parameter, derivative.real)} for mode, root, change, derivative
+                      in zip(product.mode, product.root, product.change, product.derivative, strict=True)],
+            "units": dict(zip(map(str, product.parameter), map(str, product.unit), strict=True)), "tried": tried}
 
 
 def _named(names, values):

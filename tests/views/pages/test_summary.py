@@ -77,6 +77,13 @@ def test_unstable_modes_below_squeal_are_told_as_groan_or_moan():
     assert "Below squeal" not in said(verdict({"complex_modes": modes, "convergence": ending}, ()))
 
 
+def test_what_to_change_is_told_where_sensitivities_are_known():
+    ending = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
+    told = dict(verdict({**ending, "sensitivities": small.sensitivities()}, ()).answers)
+    assert told["What to change"].startswith("What matters most for the mode at 10.9")
+    assert "What to change" not in dict(verdict(ending, ()).answers)
+
+
 def test_a_simulated_brake_squeals_and_says_how_loud():
     modes, ending = small.complex_modes(), small.convergence()
     told = verdict({"complex_modes": modes, "convergence": ending, "limit_cycle": small.limit_cycle()}, ())

@@ -1,9 +1,11 @@
 """What the report lists to be measured first."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 from pipeline.contract.context import CaseSummary
 from pipeline.views.pages.to_measure import statement, to_measure
+from tests.views import products_for_views as small
 
 CASE = CaseSummary(
     settings={"structure": {"joints.finger_stiffness": 4e8, "joints.abutment_stiffness": 5e7, "disc.young": 1.2e11,
@@ -32,6 +34,19 @@ def test_what_is_known_of_their_influence_orders_them():
     assert names({"probability": probable})[:2] == ["structure.joints.finger_stiffness", "complex_modes.damping_speed"]
     assert names({"probability": probable})[-1] == "structure.pad.lining_loss_factor"
     assert "60\u202f% of the variance" in to_measure(CASE, {"probability": probable})[0].rows[0][3]
+
+
+def test_sensitivities_order_them_where_they_are_known():
+    """By their own names, by a value that stands for them, or by the factor of their group."""
+    product = small.sensitivities()
+    named = replace(product, parameter=["structure.joints.finger_stiffness", "structure.pad.lining_loss_factor",
+                                        "friction", "structure.disc.young", "damping_speed"])
+    probable = SimpleNamespace(value=[[1.0]], source=["damping_speed"], sensitivity=[0.9])
+    both = {"sensitivities": named, "probability": probable}
+    assert names(both)[:2] == ["structure.joints.finger_stiffness", "structure.disc.young"]
+    said = [row[3] for table in to_measure(CASE, both) for row in table.rows]
+    assert said[0] == "+120\u202f1/s by one standard deviation, of the mode at 10.9\u202fkHz" and "—" in said
+    assert "−60" in said[names(both).index("structure.pad.lining_loss_factor")]
 
 
 def test_other_systems_have_no_such_list():

@@ -32,6 +32,16 @@ def test_modes_convergence_and_headline_are_there():
     assert told["convergence"]["converged"] and set(told["convergence"]["refinements"]) == set(refined.refinement)
 
 
+def test_sensitivities_are_told_by_value_and_unit():
+    told = written({"complex_modes": small.complex_modes(), "sensitivities": small.sensitivities()})["sensitivities"]
+    assert [mode["mode"] for mode in told["modes"]] == [0, 2]
+    assert told["modes"][0]["growth_per_standard_deviation"]["structure.joints.shim_stiffness"] == 120.0
+    assert told["modes"][0]["growth_per_unit"]["friction"] == pytest.approx(30 / 0.012)
+    assert told["units"]["structure.disc.density"] == "kg/m^3"
+    assert told["tried"][0] == {"value": "friction", "now": 0.6, "then": 0.42, "mode": 0, "growth_rate": -3.0}
+    assert written({"complex_modes": small.complex_modes()})["sensitivities"] is None
+
+
 def test_modes_solved_for_on_the_full_matrices_state_residual_and_distance():
     modes = small.complex_modes()
     residual = np.full(len(modes.unstable_root), -1.0)

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from pipeline.physics.modal.root_derivatives import scaled
+
 #: powers of s that the kinds of matrices stand with
 ORDERS = {"stiffness": 0, "damping": 1, "mass": 2}
 
@@ -49,14 +51,9 @@ class MatrixFamily:
                          scipy.sparse.csr_matrix((self.size, self.size))) for kind in ("mass", "damping", "stiffness"))
 
     def derivatives(self, mode, speed, friction):
-        """(t,) ds per relative change of each term, and (2,) per ln speed and ln friction, of a Mode (right, left).
-
-        ds = - y^H dT x / (y^H T'(s) x); P. Lancaster, Numer. Math. 6 (1964) 377.
-        """
-        mass, damping, _ = self.at(speed, friction)
-        x, y, s = mode.right, mode.left, mode.root
-        along = np.vdot(y, 2 * s * (mass @ x) + damping @ x)
-        raw = np.array([-s**ORDERS[t.kind] * np.vdot(y, t.matrix @ x) / along for t in self.terms])
-        own = np.array([t.factor(speed, friction) for t in self.terms])
-        slopes = np.array([t.slopes(speed, friction) for t in self.terms])
-        return raw * own, raw @ slopes
+        """(t,) ds per relative change of each term, and (2,) per ln speed and ln friction, of a Mode (right, left)."""
+        mode = scaled(self.at(speed, friction), mode.root, mode.right, mode.left)
+        raw = np.array([mode.change_of(ORDERS[term.kind], term.matrix) for term in self.terms])
+        factor = np.array([term.factor(speed, friction) for term in self.terms])
+        slopes = np.array([term.slopes(speed, friction) for term in self.terms])
+        return raw * factor, raw @ slopes
