@@ -14,7 +14,8 @@ from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
-from pipeline.systems.disc_brake import build
+from pipeline.systems.deck_materials import DISC, notes
+from pipeline.systems.disc_brake import build, disc
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
@@ -51,7 +52,13 @@ class Settings(Section):
     free_frequency_max: Quantity("Hz", gt=0) = option("4.5 kHz", "modes of the free disc below it")
 
 
-@stage
+def _check(sections):
+    """Refuse a mesh file that no disc can be made of before anything is computed."""
+    if sections["structure"].disc.mesh_file:
+        disc(sections["structure"].disc)
+
+
+@stage(check=_check)
 def structure(friction_map: FrictionMap, settings: Settings, context: Context) -> Structure:
     """Mesh the bodies of the brake, and compute preload and real modes.
 
@@ -62,7 +69,9 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     {sliding_distance} of sliding; the preload is static and frictionless. Real modes were computed below
     {frequency_max}.
     """
-    brake = build(settings)
+    brake, said = build(settings), notes(settings.disc, *DISC)
+    for note in said:
+        context.log(f"disc: {note}")
     free, *modes = _all_modes(brake, settings, context)
     bodies = {name: body_product(body, *results)
               for name, body, results in zip(brake.names, brake.bodies, modes, strict=True)}
@@ -70,8 +79,8 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
     return Structure(
-        body_name=brake.names, **bodies, others=others, free_frequency=free[0], free_diameters=diameters,
-        free_out_of_plane=out_of_plane,
+        body_name=brake.names, **bodies, others=others, disc_note=said,
+        free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
         piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake.fluid, settings.piston))

@@ -1,0 +1,90 @@
+"""One body from the mesh file of any program: its mesh and materials in SI units, and what was not read."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.includes import following
+from pipeline.decks.meshes import abaqus
+from pipeline.physics.fem.mesh import Mesh
+from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
+
+#: ending of a deck -> its reader; meshio reads all others
+READERS = {".inp": abaqus.read}
+#: system of units -> (its stress in Pa, its density in kg/m^3)
+_UNITS = {"SI": (1.0, 1.0), "mm-t-s": (1e6, 1e12), "mm-kg-ms": (1e9, 1e9)}
+#: densities [kg/m^3] and Young's moduli [Pa] of parts of a brake, from foams and rubbers to tungsten and ceramics
+_DENSITIES, _MODULI = (100.0, 25e3), (1e5, 2e12)
+
+
+@dataclass(frozen=True)
+class MeshedBody:
+    """Mesh [m], ``materials`` in SI units that its elements have, ``element_material`` (e,) rows of them or -1 where
+    the file says none, and ``notes``: sentences on what the file holds and was not read."""
+
+    mesh: Mesh
+    materials: tuple
+    element_material: np.ndarray
+    notes: tuple
+
+
+def read_body(path, units="SI"):
+    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), or what meshio reads.
+
+    ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for what cannot be read,
+    what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
+    """
+    path = Path(path)
+    files = (path, *following(path))
+    return _read(path, units, tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files))
+
+
+@lru_cache(maxsize=2)
+def _read(path, units, _state):
+    """The body; ``_state`` of its files makes what changed read again."""
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        mesh = read_mesh(path, units)
+        return MeshedBody(mesh, (), np.full(len(mesh.element), -1), ())
+    deck, where = reader(path), f"mesh file {path}"
+    labels = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [np.empty(0, int)])
+    mesh, _ = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)
+    materials, row = _materials(deck, labels)
+    return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes)
+
+
+def _materials(deck, labels):
+    """([Material with its axes], (e,) row of each element or -1); a later section overrules an earlier one."""
+    rows, row = {}, np.full(len(labels), -1)
+    for numbers, name, axes in deck.sections:
+        key = name, None if axes is None else axes.tobytes()
+        rows.setdefault(key, (name, axes))
+        row[np.isin(labels, numbers)] = list(rows).index(key)
+    used, compact = np.unique(row[row >= 0], return_inverse=True)
+    row[row >= 0] = compact.reshape(-1)
+    members = list(rows.values())
+    return [replace(deck.materials[name], axes=axes) for name, axes in (members[k] for k in used)], row
+
+
+def _in_si(where, material, units):
+    """The material in SI units; ConfigError for constants that no part has."""
+    for name, values, (low, high), unit, column in (
+            ("density", [material.density], _DENSITIES, "kg/m^3", 1),
+            ("Young's modulus", material.young or [None], _MODULI, "Pa", 0)):
+        value = values[0]
+        if value is None or low <= value * _UNITS[units][column] <= high:
+            continue
+        others = [each for each, factors in _UNITS.items() if low <= value * factors[column] <= high]
+        raise ConfigError(f"{where}, material {material.name}", f"a {name} of {low:g} to {high:g} {unit}",
+                          f"{value * _UNITS[units][column]:.4g} {unit} with mesh_units: {units}",
+                          f"declare mesh_units: {' or '.join(others)}" if others else f"correct the {name}")
+    scaled = material.scaled(*_UNITS[units])
+    if scaled.young is not None:
+        try:
+            scaled.elasticity()
+        except ConfigError as error:
+            raise ConfigError(f"{where}, material {material.name}", error.expected, error.found) from None
+    return scaled
