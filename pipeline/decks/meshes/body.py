@@ -8,12 +8,12 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import following
-from pipeline.decks.meshes import abaqus
+from pipeline.decks.meshes import abaqus, nastran
 from pipeline.physics.fem.mesh import Mesh
 from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
 
 #: ending of a deck -> its reader; meshio reads all others
-READERS = {".inp": abaqus.read}
+READERS = {".inp": abaqus.read, **dict.fromkeys((".bdf", ".nas", ".dat", ".fem"), nastran.read)}
 #: system of units -> (its stress in Pa, its density in kg/m^3)
 _UNITS = {"SI": (1.0, 1.0), "mm-t-s": (1e6, 1e12), "mm-kg-ms": (1e9, 1e9)}
 #: densities [kg/m^3] and Young's moduli [Pa] of parts of a brake, from foams and rubbers to tungsten and ceramics
@@ -32,7 +32,7 @@ class MeshedBody:
 
 
 def read_body(path, units="SI"):
-    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), or what meshio reads.
+    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp) or Nastran (.bdf), or what meshio reads.
 
     ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for what cannot be read,
     what no body can be made of, and for sizes, densities and moduli that no part of a brake has.

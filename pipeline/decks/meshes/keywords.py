@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass, field
+from math import isfinite
 from pathlib import Path
 
 from pipeline.contract.errors import ConfigError
@@ -78,13 +79,12 @@ def number(text, where, default=None):
     if not text and default is not None:
         return default
     try:
-        return float(text)
+        value = float(text.upper().replace("D", "E"))
     except ValueError:
-        pass
-    try:
-        return float(text.upper().replace("D", "E"))
-    except ValueError:
-        raise ConfigError(where, "a number", repr(text)[:60]) from None
+        value = None
+    if value is None or not isfinite(value):
+        raise ConfigError(where, "a number", repr(text)[:60])
+    return value
 
 
 def numbers(rows, least, name):

@@ -53,3 +53,35 @@ def abaqus(mesh, scale=1e3, more=""):
 
 IRON = f"*SOLID SECTION, ELSET=ALL, MATERIAL=Iron\n*MATERIAL, NAME=iron\n*ELASTIC\n{YOUNG}, {POISSON}\n" \
        f"*DENSITY\n{DENSITY},\n"
+#: the same for Nastran: property 1
+NASTRAN_IRON = f"PSOLID,1,7\nMAT1,7,{YOUNG},,{POISSON},{DENSITY}\n"
+
+
+def nastran(mesh, form="fixed", scale=1e3, more="", end="ENDDATA\n"):
+    """Text of a Nastran deck in fields of a ``form``: fixed, marked (fixed, with marks of continuations), large, free
+    or open (free, continuations without marks)."""
+    nodes = (scale * mesh.node).round(3)
+    rows = [("GRID", k, "", *(f"{x:.8g}" for x in position)) for k, position in enumerate(nodes, 1)]
+    rows += [(_CARD[kind], number, 1, *nodes[list(NASTRAN[kind])]) for number, kind, nodes in cells(mesh)]
+    return "\n".join(["SOL 103", "CEND", "SPC = 1", "BEGIN BULK", "$ a body", *(_card(form, row) for row in rows),
+                      more]) + end
+
+
+def _card(form, row):
+    """Lines of one card."""
+    (name, *values), count = row, 4 if form == "large" else 8
+    parts = [list(map(str, values[k:k + count])) for k in range(0, len(values), count)]
+    lines = []
+    for k, part in enumerate(parts):
+        last = k == len(parts) - 1
+        if form in ("free", "open"):
+            mark = "" if form == "open" else "+"
+            lines.append(",".join([name if k == 0 else mark, *part, *([] if last else [mark])]))
+        elif form == "large":
+            begin = f"{name}*" if k == 0 else "*"
+            lines.append(f"{begin:8}" + "".join(f"{each:>16}" for each in part) + "*" * (not last))
+        else:
+            mark = f"+{values[0]}{'ABC'[k]}" if form == "marked" and not last else ""
+            begin = name if k == 0 else (f"+{values[0]}{'ABC'[k - 1]}" if form == "marked" else "")
+            lines.append(f"{begin:8}" + "".join(f"{each:8}" for each in part) + mark)
+    return "\n".join(lines)

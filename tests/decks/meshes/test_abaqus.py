@@ -122,7 +122,7 @@ a, b
     ("*SURFACE, NAME=a\nnowhere, S1\n", "one of the sets ALL, found 'nowhere'"),
     ("*NODE\n500, 0, x, 0\n", r"a.inp:\d+: expected a number, found 'x'"),
     ("*NODE\n500.5, 0, 0, 0\n", "a whole number, found '500.5'"),
-    ("*NODE\n500, 0, nan, 0\n", "finite coordinates, found others of node 500"),
+    ("*NODE\n500, 0, nan, 0\n", "a number, found 'nan'"),
     ("*NODE, SYSTEM=C\n500, 1, 90, 0\n", "Cartesian coordinates"),
     ("*NSET, NSET=a, GENERATE\n1, 99999999999, 1\n", "a range of numbers"),
     ("*NSET, NSET=a, GENERATE\n1\n", "first number, last and step"),
