@@ -8,12 +8,12 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import following
-from pipeline.decks.meshes import abaqus, nastran
+from pipeline.decks.meshes import abaqus, ansys, nastran
 from pipeline.physics.fem.mesh import Mesh
 from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
 
 #: ending of a deck -> its reader; meshio reads all others
-READERS = {".inp": abaqus.read, **dict.fromkeys((".bdf", ".nas", ".dat", ".fem"), nastran.read)}
+READERS = {".inp": abaqus.read, ".cdb": ansys.read, **dict.fromkeys((".bdf", ".nas", ".fem"), nastran.read)}
 #: system of units -> (its stress in Pa, its density in kg/m^3)
 _UNITS = {"SI": (1.0, 1.0), "mm-t-s": (1e6, 1e12), "mm-kg-ms": (1e9, 1e9)}
 #: densities [kg/m^3] and Young's moduli [Pa] of parts of a brake, from foams and rubbers to tungsten and ceramics
@@ -32,7 +32,8 @@ class MeshedBody:
 
 
 def read_body(path, units="SI"):
-    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp) or Nastran (.bdf), or what meshio reads.
+    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), or what meshio
+    reads.
 
     ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for what cannot be read,
     what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
@@ -58,15 +59,17 @@ def _read(path, units, _state):
 
 def _materials(deck, labels):
     """([Material with its axes], (e,) row of each element or -1); a later section overrules an earlier one."""
-    rows, row = {}, np.full(len(labels), -1)
+    order, row, members, index = np.argsort(labels), np.full(len(labels), -1), [], {}
     for numbers, name, axes in deck.sections:
         key = name, None if axes is None else axes.tobytes()
-        rows.setdefault(key, (name, axes))
-        row[np.isin(labels, numbers)] = list(rows).index(key)
+        if key not in index:
+            index[key] = len(members)
+            members.append(replace(deck.materials[name], axes=axes))
+        found = order[np.minimum(np.searchsorted(labels, numbers, sorter=order), len(labels) - 1)]
+        row[found[labels[found] == numbers]] = index[key]
     used, compact = np.unique(row[row >= 0], return_inverse=True)
     row[row >= 0] = compact.reshape(-1)
-    members = list(rows.values())
-    return [replace(deck.materials[name], axes=axes) for name, axes in (members[k] for k in used)], row
+    return [members[k] for k in used], row
 
 
 def _in_si(where, material, units):

@@ -95,6 +95,13 @@ def _refuse_repeated(where, kind, numbers):
                           f" {(times > 1).sum() - 1} more", f"renumber, or write each {kind} once")
 
 
+def listed(name, numbers, most=8):
+    """'material 1', 'materials 1, 2' of up to ``most`` numbers, and how many more."""
+    texts = [str(number) for number in sorted(numbers)]
+    more = f" and {len(texts) - most} more" if len(texts) > most else ""
+    return f"{name}{'s' * (len(texts) > 1)} {', '.join(texts[:most])}{more}"
+
+
 def whole(text, where):
     """A whole number of a field; ConfigError for others."""
     try:

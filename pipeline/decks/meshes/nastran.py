@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.decks.meshes.deck import BY_COUNT, Draft, whole
+from pipeline.decks.meshes.deck import BY_COUNT, Draft, listed, whole
 from pipeline.decks.meshes.material import Material
 from pipeline.decks.meshes.nastran_cards import cards, number
 
@@ -109,11 +109,13 @@ def _param(card, draft, held):
 def _sections(draft, properties, held):
     """Sets of the elements of each property, and the materials of PSOLID."""
     draft.materials = {name: material.scaled(1.0, held["scale"]) for name, material in draft.materials.items()}
+    lacking = {} if not held["psolid"] else {key: each for key, each in properties.items() if key not in held["psolid"]}
+    if lacking:
+        draft.notes.append(f"{sum(map(len, lacking.values()))} elements of {listed('PID', lacking)}, which no PSOLID"
+                           " gives")
     for number_of, labels in properties.items():
         draft.element_sets[f"PROPERTY {number_of}"] = labels
         if number_of not in held["psolid"]:
-            if held["psolid"]:
-                draft.notes.append(f"{len(labels)} elements of property {number_of}, which no PSOLID gives")
             continue
         material, where = held["psolid"][number_of]
         if f"MAT1 {material}" in draft.materials:

@@ -85,3 +85,27 @@ def _card(form, row):
             begin = name if k == 0 else (f"+{values[0]}{'ABC'[k - 1]}" if form == "marked" else "")
             lines.append(f"{begin:8}" + "".join(f"{each:8}" for each in part) + mark)
     return "\n".join(lines)
+
+
+#: the same for Ansys: material 1
+ANSYS_IRON = f"MPTEMP,R5.0, 1, 1,  0.0,\nMPDATA,R5.0, 1,EX  ,     1, 1,  {YOUNG}    ,\nMP,PRXY,1,{POISSON}\n" \
+             f"MPDATA,R5.0, 1,DENS,     1, 1,  {DENSITY}    ,\n"
+
+
+def ansys(mesh, tetra=187, scale=1e3, more=ANSYS_IRON, system=0):
+    """Text of an Ansys archive: SOLID186, of which wedges and tetrahedra are collapsed ones unless ``tetra`` is 187."""
+    nodes = [f"{k:9d}{0:9d}{0:9d}" + "".join(f"{x:21.13E}" for x in position).rstrip()
+             for k, position in enumerate(scale * mesh.node, 1)]
+    rows = []
+    for number, kind, each in cells(mesh):
+        own = kind == "tetra10" and tetra == 187
+        chosen = list(each) if own else [each[k] for k in _SOLID186[kind]]
+        values = [1, 2 if own else 1, 1, 1, system, 0, 0, 0, len(chosen), 0, number, *chosen]
+        rows += ["".join(f"{v:9d}" for v in values[:19]), "".join(f"{v:9d}" for v in values[19:])]
+    count = len(mesh.element)
+    return "\n".join([
+        "/COM,ANSYS RELEASE 2023 R1", "/PREP7", "ET,        1,186", "ETBLOCK,        1,        1", "(2i9,19a9)",
+        "        2      187", "       -1", f"NBLOCK,6,SOLID,{len(nodes):9d},{len(nodes):9d}", "(3i9,6e21.13e3)", *nodes,
+        "N,R5.3,LOC,       -1,", f"EBLOCK,19,SOLID,{count:9d},{count:9d}", "(19i9)", *rows, "       -1",
+        "CMBLOCK,RIM     ,NODE,       3  ! users node component", "(8i10)", "         1         4        -7",
+        "CMBLOCK,BODY,ELEM,       2", "(8i10)", f"         1{-count:10d}", more, "FINISH", ""])

@@ -71,7 +71,7 @@ def test_properties_without_what_they_name(tmp_path):
     other = deck(tmp_path / "a.bdf", nastran(cube(), more="PSOLID,1,5\nMAT9,5,1.\n"))
     assert not other.sections and "PSOLID 1 names material 5, which is none of MAT1 and is not read" in other.notes
     lacking = deck(tmp_path / "a.bdf", nastran(cube(), more="PSOLID,2,7\nMAT1,7,1.+5,,.3\n"))
-    assert not lacking.sections and "8 elements of property 1, which no PSOLID gives" in lacking.notes
+    assert not lacking.sections and "8 elements of PID 1, which no PSOLID gives" in lacking.notes
 
 
 @pytest.mark.parametrize("more, message", [
