@@ -33,6 +33,13 @@ def notes(parameters, name, where):
     return (*body.notes, *materials(body, parameters, name, where)[2])
 
 
+def from_file(parameters):
+    """Names among young, poisson and density whose value is that of the mesh file: the case states none."""
+    members = read_body(parameters.mesh_file, parameters.mesh_units).materials if parameters.mesh_file else ()
+    return tuple(key for key in _VALUES if key not in parameters.model_fields_set and any(
+        (material.density if key == "density" else material.young) is not None for material in members))
+
+
 def materials(body, parameters, name, where):
     """(materials [Material] in SI units, (e,) row of each element, sentences on where each value comes from).
 

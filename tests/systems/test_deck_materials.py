@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import isotropic
-from pipeline.systems.deck_materials import DISC, materials, meshed, notes
+from pipeline.systems.deck_materials import DISC, from_file, materials, meshed, notes
 from pipeline.systems.disc_brake import disc, disc_mesh
+from stages import model_update
 from stages.structure import Disc
 from tests.decks.meshes.small_decks import IRON, abaqus
 from tests.decks.meshes.test_abaqus_materials import LINING
@@ -66,3 +68,12 @@ def test_direction_dependent_constants(deck):
 
 def test_without_a_file_nothing_is_said():
     assert notes(Disc(), *DISC) == () and disc(Disc()).material_name == ("cast iron",)
+
+
+def test_what_the_case_leaves_to_the_file(deck):
+    named = deck(IRON)
+    assert from_file(Disc(**named)) == ("young", "poisson", "density")
+    assert from_file(Disc(**named, young="1 GPa")) == ("poisson", "density") and from_file(Disc()) == ()
+    update = model_update.Settings(disc=Disc(**named), values={"young": {"spread": 0.1}})
+    with pytest.raises(ConfigError, match="model_update.values: .*found disc.young of the mesh file; state them"):
+        model_update.stated({"model_update": update})

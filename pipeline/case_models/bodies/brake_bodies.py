@@ -26,9 +26,10 @@ class Disc(Section):
     web_cells: int = option(4, "elements across the web, radially", ge=2)
     ring_cells: int = option(10, "elements across the ring, radially", ge=1)
     angular_cells: int = option(90, "elements around", ge=8)
-    mesh_file: InputFile | None = option(None, "mesh of quadratic hexahedra or tetrahedra to use instead"
-                                                " (meshio, same axes)")
-    mesh_units: Literal["SI", "mm-t-s", "mm-kg-ms"] = option("SI", "units of the mesh file")
+    mesh_file: InputFile | None = option(None, "mesh of quadratic hexahedra, tetrahedra or wedges to use instead, same"
+                                                " axes: deck of Abaqus, CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb)"
+                                                " with its materials, or what meshio reads")
+    mesh_units: Literal["SI", "mm-t-s", "mm-kg-ms"] = option("SI", "units of the mesh file and of its materials")
 
 
 class Pad(Section):

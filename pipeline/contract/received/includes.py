@@ -8,7 +8,7 @@ from pipeline.contract.received.files import open_regular
 from pipeline.contract.received.names import within
 
 #: endings of decks whose includes are followed
-SUFFIXES = (".inp", ".bdf", ".nas", ".fem")
+SUFFIXES = (".inp", ".bdf", ".nas", ".fem", ".dat")
 #: files within files at most
 DEPTH = 8
 #: INPUT=name on a keyword line of Abaqus, and INCLUDE 'name' of Nastran, whose name may go on in the next line

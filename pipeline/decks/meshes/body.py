@@ -1,5 +1,6 @@
 """One body from the mesh file of any program: its mesh and materials in SI units, and what was not read."""
 
+import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -7,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.contract.received.includes import following
+from pipeline.contract.received.includes import following, read_lines
 from pipeline.decks.meshes import abaqus, ansys, nastran
 from pipeline.physics.fem.mesh import Mesh
 from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
@@ -32,8 +33,8 @@ class MeshedBody:
 
 
 def read_body(path, units="SI"):
-    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), or what meshio
-    reads.
+    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), a .dat of one of
+    them, or what meshio reads.
 
     ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for what cannot be read,
     what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
@@ -46,15 +47,24 @@ def read_body(path, units="SI"):
 @lru_cache(maxsize=2)
 def _read(path, units, _state):
     """The body; ``_state`` of its files makes what changed read again."""
-    reader = READERS.get(path.suffix.lower())
+    reader = _reader(path)
     if reader is None:
-        mesh = read_mesh(path, units)
-        return MeshedBody(mesh, (), np.full(len(mesh.element), -1), ())
+        mesh, notes = read_mesh(path, units)
+        return MeshedBody(mesh, (), np.full(len(mesh.element), -1), notes)
     deck, where = reader(path), f"mesh file {path}"
     labels = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [np.empty(0, int)])
     mesh, _ = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)
     materials, row = _materials(deck, labels)
     return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes)
+
+
+def _reader(path):
+    """Reader by the ending of a file; of .dat, which several programs write, by its content. None: meshio's."""
+    if path.suffix.lower() != ".dat":
+        return READERS.get(path.suffix.lower())
+    text = "\n".join(read_lines(path)).upper()
+    signs = {r"NBLOCK\b": ansys.read, r"\*NODE\b": abaqus.read, r"GRID\b": nastran.read}
+    return next((reader for sign, reader in signs.items() if re.search(rf"^\s*{sign}", text, re.MULTILINE)), None)
 
 
 def _materials(deck, labels):

@@ -23,12 +23,17 @@ _BATCH = 2048
 
 
 def read_mesh(path, units="SI"):
-    """Mesh [m] of a file that meshio reads, in one of the systems of units LENGTH.
+    """(Mesh [m], sentences on what was not taken) of a file that meshio reads, in one of the systems of units LENGTH.
 
     Raises ConfigError for an unreadable file, and as ``mesh_of``.
     """
     where, read = f"mesh file {path}", _read(path)
-    return mesh_of(where, read.points, [(b.type, b.data) for b in read.cells if b.dim == 3], units)[0]
+    mesh, _ = mesh_of(where, read.points, [(b.type, b.data) for b in read.cells if b.dim == 3], units)
+    left = [f"{len(b.data)} cells {b.type}" for b in read.cells if b.dim < 3 and b.type != "vertex"]
+    named = {"sets of points": read.point_sets, "sets of cells": read.cell_sets, "data at points": read.point_data,
+             "data in cells": read.cell_data, "names of groups": read.field_data}
+    left += [f"{kind} {', '.join(map(str, members))}" for kind, members in named.items() if members]
+    return mesh, (f"not read: {'; '.join(left)}",) if left else ()
 
 
 def mesh_of(where, points, blocks, units, labels=None):

@@ -9,7 +9,7 @@ import pytest
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
 from pipeline.physics.fem.elasticity import assemble, isotropic
-from tests.decks.meshes.small_decks import DENSITY, IRON, abaqus, cube, ring
+from tests.decks.meshes.small_decks import DENSITY, IRON, abaqus, ansys, cube, nastran, ring
 from tests.physics.fem.test_mesh_file import written
 
 pytestmark = pytest.mark.exact
@@ -105,3 +105,9 @@ def test_a_deck_that_meshio_writes(tmp_path, kind):
     meshio.Mesh(1e3 * mesh.node, [(kind, mesh.element)]).write(tmp_path / "a.inp")
     read = read_body(tmp_path / "a.inp", "mm-t-s")
     assert np.allclose(read.mesh.node, mesh.node) and np.array_equal(read.mesh.element, mesh.element)
+
+
+@pytest.mark.parametrize("write, kind", [(abaqus, "*NODE"), (nastran, "GRID"), (ansys, "NBLOCK")])
+def test_a_dat_file_is_told_by_its_content(tmp_path, write, kind):
+    text = write(cube())
+    assert kind in text and len(body(tmp_path / "a.dat", text).mesh.element) == 8
