@@ -54,8 +54,9 @@ class Settings(Section):
 
 def _check(sections):
     """Refuse a mesh file that no disc can be made of before anything is computed."""
-    if sections["structure"].disc.mesh_file:
-        disc(sections["structure"].disc)
+    stated = sections["structure"].disc
+    if stated.mesh_file or stated.mount_group:
+        disc(stated)
 
 
 @stage(check=_check)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.groups import named_nodes
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
 from pipeline.systems.deck_materials import DISC, materials, meshed
@@ -59,11 +60,13 @@ def build(parameters):
 def disc(parameters):
     """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts.
 
-    From a file where one is named, with the materials of ``deck_materials``.
+    From a file where one is named, with the materials of ``deck_materials``, held by its ``mount_group`` if stated.
     """
     body = meshed(parameters, disc_mesh)
     table, row, _ = materials(body, parameters, *DISC)
-    supported = clamped_nodes(body.mesh, parameters, max(max(material.young) for material in table))
+    supported = (clamped_nodes(body.mesh, parameters, max(max(material.young) for material in table))
+                 if parameters.mount_group is None else
+                 named_nodes(body, parameters.mount_group, "structure.disc.mount_group"))
     return Solid(body.mesh, row, tuple(m.name for m in table), np.array([m.density for m in table]),
                  np.array([m.elasticity() for m in table]), parameters.damping_ratio, supported,
                  np.full(len(table), float(parameters.loss_factor)))

@@ -77,3 +77,12 @@ def test_what_the_case_leaves_to_the_file(deck):
     update = model_update.Settings(disc=Disc(**named), values={"young": {"spread": 0.1}})
     with pytest.raises(ConfigError, match="model_update.values: .*found disc.young of the mesh file; state them"):
         model_update.stated({"model_update": update})
+
+
+def test_a_group_of_the_file_is_held(deck):
+    named = deck(IRON + "*NSET, NSET=hub\n1, 2, 3\n")
+    assert list(disc(Disc(**named, mount_group="Hub")).supported) == [0, 1, 2]
+    with pytest.raises(ConfigError, match="structure.disc.mount_group: expected .* HUB, NALL, found 'web'"):
+        disc(Disc(**named, mount_group="web"))
+    with pytest.raises(ConfigError, match="structure.disc.mount_group: .*it has none, found 'hub'"):
+        disc(Disc(mount_group="hub"))

@@ -30,6 +30,8 @@ class Disc(Section):
                                                 " axes: deck of Abaqus, CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb)"
                                                 " with its materials, or what meshio reads")
     mesh_units: Literal["SI", "mm-t-s", "mm-kg-ms"] = option("SI", "units of the mesh file and of its materials")
+    mount_group: str | None = option(None, "set of nodes or surface of the mesh file that the hub holds rigidly; none ="
+                                           " the inner face within the pressure cones of the bolts")
 
 
 class Pad(Section):

@@ -1,7 +1,7 @@
 """One body from the mesh file of any program: its mesh and materials in SI units, and what was not read."""
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import following, read_lines
-from pipeline.decks.meshes import abaqus, ansys, nastran
+from pipeline.decks.meshes import abaqus, ansys, groups, nastran
 from pipeline.physics.fem.mesh import Mesh
 from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
 
@@ -24,12 +24,19 @@ _DENSITIES, _MODULI = (100.0, 25e3), (1e5, 2e12)
 @dataclass(frozen=True)
 class MeshedBody:
     """Mesh [m], ``materials`` in SI units that its elements have, ``element_material`` (e,) rows of them or -1 where
-    the file says none, and ``notes``: sentences on what the file holds and was not read."""
+    the file says none, and ``notes``: sentences on what the file holds and was not read.
+
+    Named groups, in capitals: ``node_sets`` and ``element_sets`` {name: rows of the mesh}, ``surfaces`` {name: (f, v)
+    nodes of faces, or (k, 1) nodes}.
+    """
 
     mesh: Mesh
     materials: tuple
     element_material: np.ndarray
     notes: tuple
+    node_sets: dict = field(default_factory=dict)
+    element_sets: dict = field(default_factory=dict)
+    surfaces: dict = field(default_factory=dict)
 
 
 def read_body(path, units="SI"):
@@ -53,9 +60,13 @@ def _read(path, units, _state):
         return MeshedBody(mesh, (), np.full(len(mesh.element), -1), notes)
     deck, where = reader(path), f"mesh file {path}"
     labels = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [np.empty(0, int)])
-    mesh, _ = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)
+    mesh, used = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)
     materials, row = _materials(deck, labels)
-    return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes)
+    nodes = deck.label[used]
+    return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes,
+                      {name: groups.rows_of(nodes, numbers) for name, numbers in deck.node_sets.items()},
+                      {name: groups.rows_of(labels, numbers) for name, numbers in deck.element_sets.items()},
+                      groups.surfaces(deck, mesh, labels, nodes))
 
 
 def _reader(path):
