@@ -15,7 +15,7 @@ from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.deck_materials import DISC, notes
-from pipeline.systems.disc_brake import build, disc
+from pipeline.systems.disc_brake import build
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
@@ -53,10 +53,10 @@ class Settings(Section):
 
 
 def _check(sections):
-    """Refuse a mesh file that no disc can be made of before anything is computed."""
-    stated = sections["structure"].disc
-    if stated.mesh_file or stated.mount_group:
-        disc(stated)
+    """Refuse a mesh file that the brake cannot be built with before anything is computed."""
+    settings = sections["structure"]
+    if settings.disc.mesh_file or settings.disc.mount_group:
+        build(settings)
 
 
 @stage(check=_check)
