@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pipeline import sources
 from pipeline.contract.received.includes import following
-from pipeline.contract.settings import leaves
+from pipeline.contract.settings import leaves, statements
 from pipeline.sources import digest
 
 
@@ -49,9 +49,11 @@ def _setting(key, stored, current, longest=60):
 
 
 def settings_of(section):
-    """Dotted settings in JSON form; a file is represented by the digest of its content and of those that it
-    includes."""
-    return {key: _plain(value) for key, value, _, _ in leaves(section)}
+    """Dotted settings in JSON form, and which of them are stated, where that decides.
+
+    A file is represented by the digest of its content and of those that it includes.
+    """
+    return {key: _plain(value) for key, value, _, _ in leaves(section)} | dict(statements(section))
 
 
 def _plain(value):

@@ -36,7 +36,7 @@ def notes(parameters, name, where):
 def from_file(parameters):
     """Names among young, poisson and density whose value is that of the mesh file: the case states none."""
     members = read_body(parameters.mesh_file, parameters.mesh_units).materials if parameters.mesh_file else ()
-    return tuple(key for key in _VALUES if key not in parameters.model_fields_set and any(
+    return tuple(key for key in _VALUES if key not in parameters.decided_by_statement() and any(
         (material.density if key == "density" else material.young) is not None for material in members))
 
 
@@ -47,7 +47,7 @@ def materials(body, parameters, name, where):
     go before those of the file, and those that neither states are the defaults of the section; ``name``: of a material
     that the file does not give; ``where``: the section, for the sentences.
     """
-    stated = set(_VALUES) & set(getattr(parameters, "model_fields_set", _VALUES))
+    stated = set(parameters.decided_by_statement())
     rest = (body.element_material < 0).any()
     members = [*body.materials, *[Material(name)] * bool(rest)]
     row = np.where(body.element_material < 0, len(body.materials), body.element_material)

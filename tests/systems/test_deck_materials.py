@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.fingerprint import settings_of
 from pipeline.physics.fem.elasticity import isotropic
 from pipeline.systems.deck_materials import DISC, from_file, materials, meshed, notes
 from pipeline.systems.disc_brake import disc, disc_mesh
 from stages import model_update
-from stages.structure import Disc
+from stages.structure import Disc, Settings
 from tests.decks.meshes.small_decks import IRON, abaqus
 from tests.decks.meshes.test_abaqus_materials import LINING
 
@@ -59,10 +60,11 @@ def test_what_the_file_does_not_give(deck):
 
 def test_direction_dependent_constants(deck):
     given = LINING.replace(", ORIENTATION=axes", "") + "*MATERIAL, NAME=UNUSED\n"
-    body = meshed(Disc(**deck(given)), disc_mesh)
-    (material,), _, said = materials(body, Disc(), *DISC)
+    named = deck(given)
+    body = meshed(Disc(**named), disc_mesh)
+    (material,), _, said = materials(body, Disc(**named), *DISC)
     assert material.young == pytest.approx((6e9, 5e9, 1.5e9)) and said[-1].endswith("constants of the file")
-    (material,), _, said = materials(body, Disc(young="100 GPa"), *DISC)
+    (material,), _, said = materials(body, Disc(**named, young="100 GPa"), *DISC)
     assert material.isotropic and material.young[0] == 100e9 and "states young, which makes it isotropic" in said[-1]
 
 
@@ -86,3 +88,12 @@ def test_a_group_of_the_file_is_held(deck):
         disc(Disc(**named, mount_group="web"))
     with pytest.raises(ConfigError, match="structure.disc.mount_group: .*it has none, found 'hub'"):
         disc(Disc(mount_group="hub"))
+
+
+def test_to_state_the_default_is_a_change(deck):
+    """The fingerprint of a stage tells a value that is stated from the same one that is the default."""
+    named = deck(IRON)
+    silent, stated = (settings_of(Disc(**named, **more)) for more in ({}, {"young": "120 GPa"}))
+    assert stated == silent | {"(stated)": ["young"]} and "(stated)" not in settings_of(Disc(young="120 GPa"))
+    whole = settings_of(Settings(disc=Disc(**named, young="120 GPa")))
+    assert whole["disc.(stated)"] == ["young"]

@@ -33,6 +33,11 @@ class Disc(Section):
     mount_group: str | None = option(None, "set of nodes or surface of the mesh file that the hub holds rigidly; none ="
                                            " the inner face within the pressure cones of the bolts")
 
+    def decided_by_statement(self):
+        """Values that go before those of a mesh file only where the case states them."""
+        names = {"young", "poisson", "density"} & self.model_fields_set
+        return tuple(sorted(names)) if self.mesh_file else ()
+
 
 class Pad(Section):
     """Annular pad: orthotropic lining on a steel backplate."""
