@@ -14,7 +14,7 @@ from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
-from pipeline.systems.deck_materials import DISC, notes
+from pipeline.systems.deck_materials import DISC, from_file, notes
 from pipeline.systems.disc_brake import build
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 
@@ -65,10 +65,10 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
 
     Method:
     Disc, pads, caliper, and bracket and piston where declared, were meshed with quadratic hexahedra (95 % of the
-    stiffness by 2 x 2 x 2 integration); joints between them are springs and dampers. The disc is clamped where the
-    bolts press it onto a rigid hub. The normal contact law follows from the interface stiffness after
-    {sliding_distance} of sliding; the preload is static and frictionless. Real modes were computed below
-    {frequency_max}.
+    stiffness by 2 x 2 x 2 integration), unless the disc has the elements of a mesh file; joints between them are
+    springs and dampers. The disc is clamped where the bolts press it onto a rigid hub. The normal contact law follows
+    from the interface stiffness after {sliding_distance} of sliding; the preload is static and frictionless. Real modes
+    were computed below {frequency_max}.
     """
     brake, said = build(settings), notes(settings.disc, *DISC)
     for note in said:
@@ -80,7 +80,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
     return Structure(
-        body_name=brake.names, **bodies, others=others, disc_note=said,
+        body_name=brake.names, **bodies, others=others, disc_note=said, disc_given=from_file(settings.disc),
         free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],

@@ -118,6 +118,7 @@ def test_a_disc_from_a_deck(tmp_path, brake):
     (tmp_path / "disc.inp").write_text(deck)
     section = COARSE["disc"].model_copy(update={"mesh_file": tmp_path / "disc.inp", "mesh_units": "mm-t-s"})
     read = run(disc=section)
+    assert list(read.disc_given) == ["young", "poisson", "density"] and len(brake.disc_given) == 0
     assert read.free_frequency == pytest.approx(brake.free_frequency, rel=1e-6)
     assert read.disc_note[0] == "not read: *TIE" and len(read.disc_note) == 4 and len(brake.disc_note) == 0
 
