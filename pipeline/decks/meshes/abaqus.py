@@ -51,7 +51,7 @@ def _place(block, draft):
         raise ConfigError(block.rows[1][0], "an instance that is not turned", "a rotation",
                           "turn the part itself, or write a flat deck without parts")
     if block.rows:
-        shift = [number(text, block.rows[0][0], 0.0) for text in block.rows[0][1][:3]]
+        shift = [number(text, block.rows[0][0], 0.0) for text in (*block.rows[0][1], "", "", "")[:3]]
         draft.position = [tuple(p + s for p, s in zip(position, shift, strict=True)) for position in draft.position]
 
 
@@ -134,11 +134,9 @@ def _set(kind):
 
 def _members(text, held, where):
     """Numbers that a number or the name of a set stands for; of ``instance.name`` the name counts."""
-    if text.isdigit():
-        return [int(text)]
     name = text.strip('"').rpartition(".")[2].upper()
     if name.isdigit():
-        return [int(name)]
+        return [whole(name, where)]
     if name not in held:
         raise ConfigError(where, f"a number, or one of the sets {', '.join(list(held)[:8]) or 'before it: none'}",
                           repr(text)[:60], "define the set before it is used")

@@ -44,8 +44,10 @@ def _type(command, draft, held):
 
 
 def _types(command, draft, held):
-    for _, (number, kind, *_), _ in command.table():
-        held["types"][number] = kind
+    for where, numbers, _ in command.table():
+        if len(numbers) < 2:
+            raise ConfigError(where, "a number and an element type", f"{len(numbers)} numbers")
+        held["types"][numbers[0]] = numbers[1]
 
 
 def _nodes(command, draft, held):

@@ -95,11 +95,11 @@ def _materials(deck, labels):
 
 def _in_si(where, material, units):
     """The material in SI units; ConfigError for constants that no part has."""
-    for name, values, (low, high), unit, column in (
-            ("density", [material.density], _DENSITIES, "kg/m^3", 1),
-            ("Young's modulus", material.young or [None], _MODULI, "Pa", 0)):
-        value = values[0]
-        if value is None or low <= value * _UNITS[units][column] <= high:
+    checked = [("density", material.density, _DENSITIES, "kg/m^3", 1)] * (material.density is not None)
+    checked += [("Young's modulus", value, _MODULI, "Pa", 0) for value in material.young or ()]
+    checked += [("shear modulus", value, _MODULI, "Pa", 0) for value in material.shear or ()]
+    for name, value, (low, high), unit, column in checked:
+        if low <= value * _UNITS[units][column] <= high:
             continue
         others = [each for each, factors in _UNITS.items() if low <= value * factors[column] <= high]
         raise ConfigError(f"{where}, material {material.name}", f"a {name} of {low:g} to {high:g} {unit}",

@@ -8,8 +8,8 @@ from pathlib import Path
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import opened_in, read_lines
 
-#: a comma that no quotation marks enclose
-_COMMA = re.compile(r',(?=(?:[^"]*"[^"]*")*[^"]*$)')
+#: a part of a keyword line: to the next comma that no quotation marks enclose
+_PART = re.compile(r'(?:[^,"]|"[^"]*"?)+')
 #: keywords whose data may come from the file that their INPUT names
 _WITH_INPUT = ("INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE")
 
@@ -68,7 +68,7 @@ def _lines(path, deck, parents):
 
 
 def _keyword(line, where):
-    name, *parts = (part.strip() for part in _COMMA.split(line[1:]))
+    name, *parts = (part.strip() for part in _PART.findall(line[1:]) or [""])
     pairs = (part.partition("=") for part in parts if part)
     return Block(" ".join(name.upper().split()), {" ".join(key.upper().split()): value.strip().strip('"')
                                                   for key, _, value in pairs}, where)

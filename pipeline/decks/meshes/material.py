@@ -31,12 +31,15 @@ class Material:
         if self.young is None:
             return False
         alike = all(np.ptp(each) <= _SAME * np.max(np.abs(each)) for each in (self.young, self.poisson, self.shear))
+        if not alike or self.poisson[0] == -1:
+            return False
         expected = shear_modulus(self.young[0], self.poisson[0])
-        return bool(alike and abs(self.shear[0] - expected) <= _SAME * abs(expected))
+        return bool(abs(self.shear[0] - expected) <= _SAME * abs(expected))
 
     def with_isotropic(self, young, poisson):
-        """This material with a Young's modulus and a Poisson's ratio."""
-        return replace(self, young=(young,) * 3, poisson=(poisson,) * 3, shear=(shear_modulus(young, poisson),) * 3)
+        """This material with a Young's modulus and a Poisson's ratio; for -1, which is none, the shear modulus is 0."""
+        shear = 0.0 if poisson == -1 else shear_modulus(young, poisson)
+        return replace(self, young=(young,) * 3, poisson=(poisson,) * 3, shear=(shear,) * 3)
 
     def scaled(self, pressure, density):
         """The same in other units: their factors of stresses and densities."""

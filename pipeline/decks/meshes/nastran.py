@@ -1,5 +1,7 @@
 """Decks of Nastran (.bdf): grid points, solid elements, PSOLID and MAT1."""
 
+import re
+
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
@@ -36,7 +38,7 @@ def read(path):
 
 def _words(lines, most=12):
     """First words of ``lines``, each once."""
-    words = list(dict.fromkeys(line.replace("=", " ").replace("(", " ").split()[0].upper() for line in lines))
+    words = list(dict.fromkeys(re.match(r"\W*\w*", line)[0].strip().upper() for line in lines))
     return words[:most] + ["..."] * (len(words) > most)
 
 

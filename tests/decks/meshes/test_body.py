@@ -52,6 +52,10 @@ def test_density_tells_systems_of_one_length_apart(tmp_path, given, declared, re
 def test_constants_that_no_part_has(tmp_path):
     with pytest.raises(ConfigError, match="expected a Young's modulus of 100000 to 2e.12 Pa, found 1.1e.17 Pa"):
         body(tmp_path / "a.inp", abaqus(cube(), 1e3, iron(1.1e11, DENSITY)))
+    with pytest.raises(ConfigError, match="expected a shear modulus of 100000 to 2e.12 Pa, found"):
+        body(tmp_path / "a.inp", abaqus(cube(), 1e3, iron(1.1e5, DENSITY).replace("0.26", "-3.")))
+    with pytest.raises(ConfigError, match="2e.12 Pa, found 0 Pa"):
+        body(tmp_path / "a.inp", abaqus(cube(), 1e3, iron(1.1e5, DENSITY).replace("0.26", "-1.")))
     with pytest.raises(ConfigError, match="material IRON: expected a positive strain energy"):
         body(tmp_path / "a.inp", abaqus(cube(), 1e3, iron(1.1e5, DENSITY).replace("0.26", "0.6")))
 
