@@ -56,8 +56,10 @@ def _read(path, units, _state):
     """The body; ``_state`` of its files makes what changed read again."""
     reader = _reader(path)
     if reader is None:
-        mesh, notes = read_mesh(path, units)
-        return MeshedBody(mesh, (), np.full(len(mesh.element), -1), notes)
+        mesh, named, notes = read_mesh(path, units)
+        return MeshedBody(mesh, (), np.full(len(mesh.element), -1), notes, {},
+                          {name: rows for name, rows in named.items() if rows.ndim == 1},
+                          {name: faces for name, faces in named.items() if faces.ndim == 2})
     deck, where = reader(path), f"mesh file {path}"
     labels = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [np.empty(0, int)])
     mesh, used = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)

@@ -23,17 +23,39 @@ _BATCH = 2048
 
 
 def read_mesh(path, units="SI"):
-    """(Mesh [m], sentences on what was not taken) of a file that meshio reads, in one of the systems of units LENGTH.
+    """(Mesh [m], groups, sentences on what was not taken) of a file that meshio reads, in one of the systems of LENGTH.
 
-    Raises ConfigError for an unreadable file, and as ``mesh_of``.
+    ``groups``: physical groups of gmsh, {name in capitals: rows of elements (k,), or nodes of faces (f, v)}. Raises
+    ConfigError for an unreadable file, and as ``mesh_of``.
     """
     where, read = f"mesh file {path}", _read(path)
-    mesh, _ = mesh_of(where, read.points, [(b.type, b.data) for b in read.cells if b.dim == 3], units)
-    left = [f"{len(b.data)} cells {b.type}" for b in read.cells if b.dim < 3 and b.type != "vertex"]
+    mesh, used = mesh_of(where, read.points, [(b.type, b.data) for b in read.cells if b.dim == 3], units)
+    groups = _groups(read, used)
+    left = [f"{len(b.data)} cells {b.type}" for b in read.cells if b.dim < 3 and b.type != "vertex" and not groups]
     named = {"sets of points": read.point_sets, "sets of cells": read.cell_sets, "data at points": read.point_data,
-             "data in cells": read.cell_data, "names of groups": read.field_data}
-    left += [f"{kind} {', '.join(map(str, members))}" for kind, members in named.items() if members]
-    return mesh, (f"not read: {'; '.join(left)}",) if left else ()
+             "data in cells": read.cell_data, "groups": read.field_data}
+    members = ((kind, [n for n in map(str, names) if n.upper() not in groups and not n.startswith("gmsh:")])
+               for kind, names in named.items())
+    left += [f"{kind} {', '.join(names)}" for kind, names in members if names]
+    return mesh, groups, (f"not read: {'; '.join(left)}",) if left else ()
+
+
+def _groups(read, used):
+    """Physical groups of gmsh on the mesh of the points ``used``: its solids by rows, its faces by their nodes."""
+    groups = {}
+    for name, (tag, dim) in ((n, each) for n, each in read.field_data.items() if np.shape(each) == (2,)):
+        parts, first = [], 0
+        for block, physical in zip(read.cells, read.cell_data.get("gmsh:physical", ()), strict=False):
+            rows = np.flatnonzero(physical == tag) if block.dim == dim else np.empty(0, int)
+            if len(rows) and dim == 3:
+                parts.append(first + rows)
+            elif len(rows) and dim == 2:
+                place = np.minimum(np.searchsorted(used, block.data[rows]), len(used) - 1)
+                parts.append(place[(used[place] == block.data[rows]).all(axis=1)])
+            first += len(block.data) if block.dim == 3 else 0
+        if parts and len({part.shape[1:] for part in parts}) == 1:
+            groups[name.upper()] = np.concatenate(parts)
+    return groups
 
 
 def mesh_of(where, points, blocks, units, labels=None):

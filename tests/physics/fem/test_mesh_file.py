@@ -30,7 +30,7 @@ def ring(kind):
 @pytest.mark.parametrize("suffix", ["vtu", "inp", "msh"])
 def test_a_ring_in_millimetres_has_its_mass(tmp_path, kind, suffix):
     mesh = ring(kind)
-    read, _ = read_mesh(written(tmp_path / f"ring.{suffix}", mesh, 1e3), "mm-t-s")
+    read, *_ = read_mesh(written(tmp_path / f"ring.{suffix}", mesh, 1e3), "mm-t-s")
     assert read.kind == kind and len(read.node) == len(mesh.node)
     table = [7200.0], [isotropic(1e11, 0.3)]
     masses = [assemble(m.node, m.element, m.kind, np.zeros(len(m.element), int), *table)[1].sum() for m in (mesh, read)]
@@ -42,7 +42,7 @@ def test_a_ring_in_millimetres_has_its_mass(tmp_path, kind, suffix):
 def test_nastran(tmp_path, suffix, kind):
     mesh = ring(kind)
     mesh = type(mesh)(mesh.node.round(6), mesh.element, kind, mesh.cell)
-    read, _ = read_mesh(written(tmp_path / f"ring.{suffix}", mesh))
+    read, *_ = read_mesh(written(tmp_path / f"ring.{suffix}", mesh))
     assert np.allclose(read.node[read.element], mesh.node[mesh.element], atol=1e-6)
 
 
@@ -94,10 +94,10 @@ def test_what_is_not_taken_is_said(tmp_path):
     faces = boundary_faces(mesh)
     meshio.Mesh(mesh.node, [("tetra10", mesh.element), ("triangle6", faces)],
                 point_data={"rim": np.ones(len(mesh.node))}).write(tmp_path / "a.vtu")
-    read, notes = read_mesh(tmp_path / "a.vtu")
+    read, _, notes = read_mesh(tmp_path / "a.vtu")
     assert len(read.element) == len(mesh.element) and notes == (
         f"not read: {len(faces)} cells triangle6; data at points rim",)
-    assert read_mesh(written(tmp_path / "b.vtu", mesh))[1] == ()
+    assert read_mesh(written(tmp_path / "b.vtu", mesh))[2] == ()
 
 
 def test_mid_side_nodes_off_their_edges_are_refused():
@@ -112,3 +112,18 @@ def test_mid_side_nodes_off_their_edges_are_refused():
         else:
             with pytest.raises(ConfigError, match="node 9 of element 7 .hexahedron20. 0.35 of its edge away"):
                 check(moved, "a", np.array([7]))
+
+
+def test_physical_groups_of_gmsh(tmp_path):
+    """A group of solids and one of faces, beside points that no solid has."""
+    mesh = ring("tetra10")
+    faces = boundary_faces(mesh)
+    inner = faces[np.hypot(*mesh.node[faces[:, 0], :2].T) < 0.101]
+    node = np.vstack([[(9.0, 9.0, 9.0)], mesh.node])
+    physical = [np.where(np.arange(len(mesh.element)) < 5, 1, 4), np.full(len(inner), 2)]
+    meshio.Mesh(node, [("tetra10", mesh.element + 1), ("triangle6", inner + 1)],
+                cell_data={"gmsh:physical": physical, "gmsh:geometrical": physical},
+                field_data={"few": np.array([1, 3]), "Bore": np.array([2, 2])}).write(tmp_path / "a.msh", "gmsh22")
+    read, groups, notes = read_mesh(tmp_path / "a.msh")
+    assert set(groups) == {"FEW", "BORE"} and list(groups["FEW"]) == [0, 1, 2, 3, 4] and notes == ()
+    assert np.array_equal(read.node[groups["BORE"]], mesh.node[inner])
