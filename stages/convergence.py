@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from pipeline.case_models.operating_points import middle_speed
-from pipeline.contract import Context, Quantity, Section, Variants, option, stage
+from pipeline.contract import ConfigError, Context, Quantity, Section, Variants, option, stage
 from pipeline.physics.stability.refinement import moved_roots
 from pipeline.products import ComplexModes, Convergence
 
@@ -37,7 +37,10 @@ class Settings(Section):
 
 
 def _variants(sections):
-    """The refined cases, each at one operating point, without a friction sweep, in the reduced model alone."""
+    """The refined cases, each at one operating point, without a friction sweep, in the reduced model alone.
+
+    The mesh of a disc from a file cannot be refined here.
+    """
     settings, brake, modes = sections["convergence"], sections["structure"], sections["complex_modes"]
     pressure, speed = operating_point(settings, brake.pressures, modes.speeds)
     once = {"structure.pressures": [f"{pressure!r} Pa"], "complex_modes.speeds": [f"{speed!r} rad/s"],
@@ -45,7 +48,10 @@ def _variants(sections):
             "complex_modes.residual_tolerance": None, "complex_modes.followed": 0}
     changes = {CONTACT: _finer_contact(brake.pad, settings), PAD_MESH: _finer_pads(brake.pad),
                DISC_MESH: _finer_disc(brake.disc), BASES: _larger_bases(brake, sections["reduced_model"], settings)}
-    return {name: {**once, **changes[name]} for name in settings.refinements}
+    names = [name for name in settings.refinements if name != DISC_MESH or not brake.disc.mesh_file]
+    if not names:
+        raise ConfigError("convergence.refinements", "more than the mesh of a disc that comes from a file", DISC_MESH)
+    return {name: {**once, **changes[name]} for name in names}
 
 
 def operating_point(settings, pressures, speeds):

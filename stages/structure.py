@@ -14,6 +14,7 @@ from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
+from pipeline.systems.deck_materials import DISC, from_file, notes
 from pipeline.systems.disc_brake import build
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 
@@ -51,18 +52,27 @@ class Settings(Section):
     free_frequency_max: Quantity("Hz", gt=0) = option("4.5 kHz", "modes of the free disc below it")
 
 
-@stage
+def _check(sections):
+    """Refuse a mesh file that the brake cannot be built with before anything is computed."""
+    settings = sections["structure"]
+    if settings.disc.mesh_file or settings.disc.mount_group:
+        build(settings)
+
+
+@stage(check=_check)
 def structure(friction_map: FrictionMap, settings: Settings, context: Context) -> Structure:
     """Mesh the bodies of the brake, and compute preload and real modes.
 
     Method:
     Disc, pads, caliper, and bracket and piston where declared, were meshed with quadratic hexahedra (95 % of the
-    stiffness by 2 x 2 x 2 integration); joints between them are springs and dampers. The disc is clamped where the
-    bolts press it onto a rigid hub. The normal contact law follows from the interface stiffness after
-    {sliding_distance} of sliding; the preload is static and frictionless. Real modes were computed below
-    {frequency_max}.
+    stiffness by 2 x 2 x 2 integration), unless the disc has the elements of a mesh file; joints between them are
+    springs and dampers. The disc is clamped where the bolts press it onto a rigid hub. The normal contact law follows
+    from the interface stiffness after {sliding_distance} of sliding; the preload is static and frictionless. Real modes
+    were computed below {frequency_max}.
     """
-    brake = build(settings)
+    brake, said = build(settings), notes(settings.disc, *DISC)
+    for note in said:
+        context.log(f"disc: {note}")
     free, *modes = _all_modes(brake, settings, context)
     bodies = {name: body_product(body, *results)
               for name, body, results in zip(brake.names, brake.bodies, modes, strict=True)}
@@ -70,8 +80,8 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
     return Structure(
-        body_name=brake.names, **bodies, others=others, free_frequency=free[0], free_diameters=diameters,
-        free_out_of_plane=out_of_plane,
+        body_name=brake.names, **bodies, others=others, disc_note=said, disc_given=from_file(settings.disc),
+        free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
         piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake.fluid, settings.piston))

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pipeline import sources
-from pipeline.contract.settings import leaves
+from pipeline.contract.received.includes import following
+from pipeline.contract.settings import leaves, statements
 from pipeline.sources import digest
 
 
@@ -48,13 +49,16 @@ def _setting(key, stored, current, longest=60):
 
 
 def settings_of(section):
-    """Dotted settings in JSON form; a file is represented by the digest of its content."""
-    return {key: _plain(value) for key, value, _, _ in leaves(section)}
+    """Dotted settings in JSON form, and which of them are stated, where that decides.
+
+    A file is represented by the digest of its content and of those that it includes.
+    """
+    return {key: _plain(value) for key, value, _, _ in leaves(section)} | dict(statements(section))
 
 
 def _plain(value):
     if isinstance(value, Path):
-        return f"file {digest(value)[:16]}"
+        return " ".join(["file", *(digest(file)[:16] for file in (value, *following(value)))])
     if isinstance(value, (tuple, list)):
         return [_plain(v) for v in value]
     if isinstance(value, dict):

@@ -52,6 +52,10 @@ class Section(BaseModel):
         return {key: value for key, value in values.items()
                 if value is not None or not _holds_many(cls.model_fields.get(key))}
 
+    def decided_by_statement(self):
+        """Names of the values that matter not only by their size but also by being stated in the case: none here."""
+        return ()
+
 
 def _holds_many(info):
     """Whether a field is a section, list or mapping, and cannot be none."""
@@ -249,6 +253,16 @@ def leaves(section, prefix=""):
                 yield from leaves(item, f"{key}.{index}.")
         else:
             yield key, value, _unit(info), info.description or ""
+
+
+def statements(section, prefix=""):
+    """Yield (dotted key, names) of every section within a filled one that values decide by being stated."""
+    if names := section.decided_by_statement():
+        yield f"{prefix}(stated)", list(names)
+    for name in type(section).model_fields:
+        value = getattr(section, name)
+        if isinstance(value, Section):
+            yield from statements(value, f"{prefix}{name}.")
 
 
 def declared(cls, steps):

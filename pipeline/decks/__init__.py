@@ -1,1 +1,1 @@
-"""Readers of files that finite-element programs write; each in a process of its own."""
+"""Readers of files that finite-element programs write: matrices, each in a process of its own, and meshes."""

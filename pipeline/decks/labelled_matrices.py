@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.entries import Entries, sound
+from pipeline.decks.meshes.nastran_cards import number
 
 #: form of a symmetric matrix in the head of a DMIG
 _SYMMETRIC = "6"
@@ -42,15 +43,15 @@ def nastran(path, name=None):
     Raises ConfigError where there is none or several, and for an entry that is no number.
     """
     forms, columns, here = {}, {}, None
-    for number, line in enumerate(path.read_text().splitlines(), 1):
+    for count, line in enumerate(path.read_text().splitlines(), 1):
         fields = _fields(line)
         if fields[0] == "DMIG" and len(fields) > 3 and fields[2] == "0":
             forms[fields[1]], here = fields[3], None
         elif fields[0] == "DMIG" and len(fields) > 3:
-            here = columns.setdefault(fields[1], []), _label(fields[2:4], path, number)
-            _entries(fields[5:], *here, path, number)
+            here = columns.setdefault(fields[1], []), _label(fields[2:4], path, count)
+            _entries(fields[5:], *here, path, count)
         elif here and fields[0] in ("*", "+", ""):
-            _entries(fields[1:], *here, path, number)
+            _entries(fields[1:], *here, path, count)
     wanted = name or (next(iter(forms)) if len(forms) == 1 else None)
     if wanted not in forms or wanted not in columns:
         raise ConfigError(path, "the name of a matrix with entries as 'variable'", ", ".join(forms) or "no DMIG")
@@ -62,7 +63,7 @@ def _entries(fields, kept, column, path, line):
     """Append (row, column, value) of each group 'node, direction, real, imaginary' of ``fields``."""
     for k in range(0, len(fields) - 2, 4):
         if fields[k]:
-            kept.append((_label(fields[k:k + 2], path, line), column, _number(fields[k + 2], path, line)))
+            kept.append((_label(fields[k:k + 2], path, line), column, number(fields[k + 2], f"{path}:{line}")))
 
 
 def _label(fields, path, line):
@@ -79,15 +80,6 @@ def _fields(line):
     head = line[:8].strip()
     width = 16 if "*" in head else 8
     return [head.rstrip("*") or head, *(line[k:k + width].strip() for k in range(8, max(len(line), 9), width))]
-
-
-def _number(text, path, line):
-    """A number of Nastran, whose exponent may stand without its letter: 1.5-3, 2.D+4."""
-    spelt = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", re.sub("[dD]", "e", text))
-    try:
-        return float(spelt)
-    except ValueError:
-        raise ConfigError(f"{path}:{line}", "a number", repr(text)) from None
 
 
 def _labelled(path, row, column, value, halved=None):

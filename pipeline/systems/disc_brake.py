@@ -14,9 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.groups import named_nodes
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
-from pipeline.physics.fem.mesh_file import read_mesh
+from pipeline.systems.deck_materials import DISC, materials, meshed
 from pipeline.systems.disc_brake_bracket import bracket
 from pipeline.systems.disc_brake_joints import joints, piston_rows
 from pipeline.systems.disc_brake_piston import FluidColumn, bore, fluid_column, piston
@@ -57,13 +58,18 @@ def build(parameters):
 
 
 def disc(parameters):
-    """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts."""
-    p = parameters
-    mesh = read_mesh(p.mesh_file, p.mesh_units) if p.mesh_file else disc_mesh(p)
-    elasticity = isotropic(parameters.young, parameters.poisson)
-    return Solid(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([parameters.density]),
-                       elasticity[None], parameters.damping_ratio, clamped_nodes(mesh, parameters),
-                       np.array([parameters.loss_factor]))
+    """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts.
+
+    From a file where one is named, with the materials of ``deck_materials``, held by its ``mount_group`` if stated.
+    """
+    body = meshed(parameters, disc_mesh)
+    table, row, _ = materials(body, parameters, *DISC)
+    supported = (clamped_nodes(body.mesh, parameters, max(max(material.young) for material in table))
+                 if parameters.mount_group is None else
+                 named_nodes(body, parameters.mount_group, "structure.disc.mount_group"))
+    return Solid(body.mesh, row, tuple(m.name for m in table), np.array([m.density for m in table]),
+                 np.array([m.elasticity() for m in table]), parameters.damping_ratio, supported,
+                 np.full(len(table), float(parameters.loss_factor)))
 
 
 def disc_mesh(parameters):
@@ -80,12 +86,13 @@ def disc_mesh(parameters):
     return revolve(np.r_[web, ring[1:]], np.linspace(0, 2 * np.pi, p.angular_cells + 1), height, mask)
 
 
-def clamped_nodes(mesh, parameters):
+def clamped_nodes(mesh, parameters, young=None):
     """Nodes of the inner face that the bolts press on the hub: within the pressure cones of 30 degrees.
 
     The hub is rigid. Rough metal faces under pressure p are a foundation of stiffness k = p / (0.4 Sq)
     per area, into which the web bends over the length (E t^3 / 3k)^(1/4). That must be far less than
-    the clamped width, else the mount is no rigid support (ConfigError).
+    the clamped width, else the mount is no rigid support (ConfigError). ``young``: E, by default the stated
+    one.
     """
     p, reach = parameters, _clamped_radius(parameters)
     face = boundary_faces(mesh)
@@ -95,7 +102,7 @@ def clamped_nodes(mesh, parameters):
         raise ConfigError("structure.disc.mesh_file", f"faces towards -z within {reach:g} m to clamp", "none")
     pressure = p.bolt_count * p.bolt_preload / (np.pi * (reach**2 - p.bore_radius**2))
     interface, width = pressure / (_SEPARATION_SHARE * p.flange_roughness), reach - p.bore_radius
-    bending = (p.young * p.web_thickness**3 / (3 * interface))**0.25
+    bending = ((young or p.young) * p.web_thickness**3 / (3 * interface))**0.25
     if bending > _BENDING_SHARE * width:
         raise ConfigError("structure.disc.bolt_preload",
                           f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",

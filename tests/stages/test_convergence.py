@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.contract import Section
+from pipeline.contract import ConfigError, Section
 from stages.convergence import REFINEMENTS, Settings, convergence
 from stages.reduced_model import Settings as Reduction
 from stages.structure import Settings as Brake
@@ -35,6 +35,14 @@ def test_everything_is_refined_in_turn_at_one_operating_point():
     assert made["disc_mesh"]["structure.disc.angular_cells"] == 128
     assert made["bases"]["structure.frequency_max"] == "27000.0 Hz"
     assert made["bases"]["reduced_model.load_patterns"] == [14, 9]
+
+
+def test_the_mesh_of_a_disc_from_a_file_is_not_refined(tmp_path):
+    (tmp_path / "disc.inp").write_text("")
+    brake = Brake.model_validate({"disc": {"mesh_file": str(tmp_path / "disc.inp")}})
+    assert tuple(variants(brake)) == ("contact", "pad_mesh", "bases")
+    with pytest.raises(ConfigError, match="convergence.refinements: expected more than the mesh of a disc that comes"):
+        variants(brake, refinements=("disc_mesh",))
 
 
 def test_contact_patches_are_refined_without_the_mesh():

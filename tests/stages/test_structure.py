@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
+import stages
 from pipeline.contract import ConfigError, Context
+from pipeline.contract import case as cases
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.products import FrictionMap
+from pipeline.systems.disc_brake import disc_mesh
 from stages.structure import Joints, Settings, structure
+from tests.decks.meshes.small_decks import abaqus
 from tests.systems.test_disc_brake import COARSE
 from tests.systems.test_disc_brake_bracket import BODIES
 
@@ -105,3 +109,22 @@ def test_settings_without_unit_or_size_are_refused():
         Settings(disc={"ring_thickness": "-7 mm"})
     with pytest.raises(ConfigError, match="pads that lie on the ring"):
         run(pad=COARSE["pad"].model_copy(update={"inner_radius": 0.05}))
+
+
+def test_a_disc_from_a_deck(tmp_path, brake):
+    """The own mesh as an Abaqus deck with its material: the same modes; what is not read stands in the product."""
+    deck = abaqus(disc_mesh(COARSE["disc"]), more="*SOLID SECTION, ELSET=ALL, MATERIAL=IRON\n*MATERIAL, NAME=IRON\n"
+                  "*ELASTIC\n120000., 0.27\n*DENSITY\n7.2e-9\n*TIE\na, b\n")
+    (tmp_path / "disc.inp").write_text(deck)
+    section = COARSE["disc"].model_copy(update={"mesh_file": tmp_path / "disc.inp", "mesh_units": "mm-t-s"})
+    read = run(disc=section)
+    assert list(read.disc_given) == ["young", "poisson", "density"] and len(brake.disc_given) == 0
+    assert read.free_frequency == pytest.approx(brake.free_frequency, rel=1e-6)
+    assert read.disc_note[0] == "not read: *TIE" and len(read.disc_note) == 4 and len(brake.disc_note) == 0
+
+
+def test_a_faulty_deck_is_refused_before_anything_is_computed(tmp_path):
+    (tmp_path / "disc.inp").write_text("*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10\n")
+    (tmp_path / "a.yaml").write_text("chain: own_brake\nstructure: {disc: {mesh_file: disc.inp}}\n")
+    with pytest.raises(ConfigError, match="disc.inp: expected nodes that the deck defines, found node 2 of element 1"):
+        cases.load(tmp_path / "a.yaml", stages.CHAINS, stages.load)

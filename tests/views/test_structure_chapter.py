@@ -30,3 +30,8 @@ def test_springs_of_one_kind_share_a_row():
                          fluid_stiffness=[], fluid_loss_factor=[])
     (row,) = chapter._joints(alike).rows
     assert row[:3] == ("abutment outer radial", "pad outer and ground", "2")
+
+
+def test_notes_on_the_mesh_file_are_shown():
+    product = small.filled(type(small.structure()), disc_note=["not read: *TIE"])
+    assert chapter._mesh_notes(product) == ("Mesh file of the disc: not read: *TIE.",)

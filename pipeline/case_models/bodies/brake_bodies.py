@@ -26,9 +26,17 @@ class Disc(Section):
     web_cells: int = option(4, "elements across the web, radially", ge=2)
     ring_cells: int = option(10, "elements across the ring, radially", ge=1)
     angular_cells: int = option(90, "elements around", ge=8)
-    mesh_file: InputFile | None = option(None, "mesh of quadratic hexahedra or tetrahedra to use instead"
-                                                " (meshio, same axes)")
-    mesh_units: Literal["SI", "mm-t-s", "mm-kg-ms"] = option("SI", "units of the mesh file")
+    mesh_file: InputFile | None = option(None, "mesh of quadratic hexahedra, tetrahedra or wedges to use instead, same"
+                                                " axes: deck of Abaqus, CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb)"
+                                                " with its materials, or what meshio reads")
+    mesh_units: Literal["SI", "mm-t-s", "mm-kg-ms"] = option("SI", "units of the mesh file and of its materials")
+    mount_group: str | None = option(None, "set of nodes or surface of the mesh file that the hub holds rigidly; none ="
+                                           " the inner face within the pressure cones of the bolts")
+
+    def decided_by_statement(self):
+        """Values that go before those of a mesh file only where the case states them."""
+        names = {"young", "poisson", "density"} & self.model_fields_set
+        return tuple(sorted(names)) if self.mesh_file else ()
 
 
 class Pad(Section):

@@ -1,7 +1,8 @@
 """Moduli, densities, loss factors and damping ratios of the bodies of a brake, in its reduced matrices.
 
-Bodies of one material scale with its modulus and density. A pad is lining and backplate: the moduli of the lining
-change by one factor, its densities together. Shapes that the bodies are reduced to stay.
+A body scales with its modulus and density, where it has several materials with those of all. A pad is lining and
+backplate: the moduli of the lining change by one factor, its densities together. Shapes that the bodies are reduced to
+stay.
 """
 
 from dataclasses import replace
@@ -38,7 +39,7 @@ def _materials(name, model, body, coordinates, whole, damp):
     group = f"body_loss:{name.rpartition('.')[2]}"
     found = [(f"{name}.{'density' if len(body.density) == 1 else 'densities'}", float(body.density.mean()), "kg/m^3",
               float(body.density.mean()), "", partial(_denser, damp, coordinates))]
-    if len(body.density) == 1:
+    if len(body.density) == 1 or LINING not in body.material_name:
         moduli = [(f"{name}.young", whole, body, 0, "")]
         losses = [f"{name}.loss_factor"]
     else:

@@ -1,42 +1,88 @@
 """Meshes of bodies from files that meshio reads, in declared units, with the checks that a body needs."""
 
+from functools import cache
+
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.mesh import Mesh, joined
-from pipeline.physics.fem.reference_cells import MIXED, by_kind, quadrature, shape_functions
+from pipeline.physics.fem.reference_cells import MIXED, by_kind, quadrature, reference_vertices, shape_functions
 
 #: system of units of a mesh -> its length in metres
 LENGTH = {"SI": 1.0, "mm-t-s": 1e-3, "mm-kg-ms": 1e-3}
-_KINDS = ("hexahedron20", "hexahedron27", "tetra10")
+_KINDS = ("hexahedron20", "hexahedron27", "tetra10", "wedge15")
 _LINEAR = ("hexahedron", "tetra", "wedge")
 #: smallest and largest extent [m] of a part of a brake
 _SIZES = 5e-3, 2.0
 #: nodes nearer than this share of the extent are one node
 _SAME = 1e-7
+#: mid-side nodes lie within this share of an edge from its middle: at a quarter the element begins to fold
+_MIDDLE = 0.3
 _BATCH = 2048
 
 
 def read_mesh(path, units="SI"):
-    """Mesh [m] of a file that meshio reads, in one of the systems of units LENGTH.
+    """(Mesh [m], groups, sentences on what was not taken) of a file that meshio reads, in one of the systems of LENGTH.
 
-    Raises ConfigError for an unreadable file, cells not served, a size that no part of a brake has, nodes that lie in
-    one place, disconnected parts and elements turned inside out.
+    ``groups``: physical groups of gmsh, {name in capitals: rows of elements (k,), or nodes of faces (f, v)}. Raises
+    ConfigError for an unreadable file, and as ``mesh_of``.
     """
     where, read = f"mesh file {path}", _read(path)
-    blocks = _served(where, [(b.type, b.data) for b in read.cells if b.dim == 3])
-    kind, element = joined(blocks)
+    mesh, used = mesh_of(where, read.points, [(b.type, b.data) for b in read.cells if b.dim == 3], units)
+    groups = _groups(read, used)
+    left = [f"{len(b.data)} cells {b.type}" for b in read.cells if b.dim < 3 and b.type != "vertex" and not groups]
+    named = {"sets of points": read.point_sets, "sets of cells": read.cell_sets, "data at points": read.point_data,
+             "data in cells": read.cell_data, "groups": read.field_data}
+    members = ((kind, [n for n in map(str, names) if n.upper() not in groups and not n.startswith("gmsh:")])
+               for kind, names in named.items())
+    left += [f"{kind} {', '.join(names)}" for kind, names in members if names]
+    return mesh, groups, (f"not read: {'; '.join(left)}",) if left else ()
+
+
+def _groups(read, used):
+    """Physical groups of gmsh on the mesh of the points ``used``: its solids by rows, its faces by their nodes."""
+    groups = {}
+    for name, (tag, dim) in ((n, each) for n, each in read.field_data.items() if np.shape(each) == (2,)):
+        parts, first = [], 0
+        for block, physical in zip(read.cells, read.cell_data.get("gmsh:physical", ()), strict=False):
+            rows = np.flatnonzero(physical == tag) if block.dim == dim else np.empty(0, int)
+            if len(rows) and dim == 3:
+                parts.append(first + rows)
+            elif len(rows) and dim == 2:
+                place = np.minimum(np.searchsorted(used, block.data[rows]), len(used) - 1)
+                parts.append(place[(used[place] == block.data[rows]).all(axis=1)])
+            first += len(block.data) if block.dim == 3 else 0
+        if parts and len({part.shape[1:] for part in parts}) == 1:
+            groups[name.upper()] = np.concatenate(parts)
+    return groups
+
+
+def mesh_of(where, points, blocks, units, labels=None):
+    """(Mesh [m], used rows of ``points``) of solid cells.
+
+    Parameters
+    ----------
+    where : beginning of errors
+    points : (n, 3) in one of the systems of units LENGTH
+    blocks : [(kind, (c, v) rows of points in the order of meshio)]
+    labels : (e,) numbers of the elements in the file, for errors; counted from 0 by default
+
+    Raises ConfigError for cells not served, a size that no part of a brake has, nodes that lie in one place,
+    disconnected parts, mid-side nodes off their edges and elements turned inside out.
+    """
+    kind, element = joined(_served(where, blocks))
     used, compact = np.unique(element, return_inverse=True)
-    node = np.asarray(read.points[used], float)
+    node = np.asarray(points[used], float)
     _check_size(where, np.ptp(node, axis=0).max(), units)
     mesh = Mesh(LENGTH[units] * node, compact.reshape(element.shape), kind, np.zeros((len(element), 3), int))
-    check(mesh, where)
-    return mesh
+    check(mesh, where, labels)
+    return mesh, used
 
 
-def check(mesh, where):
-    """Raises ConfigError, which begins with ``where``, for a Mesh that is no one sound body."""
+def check(mesh, where, labels=None):
+    """Raises ConfigError, which begins with ``where``, for a Mesh that is no one sound body; ``labels`` (e,) numbers of
+    its elements in the file."""
     extent = np.ptp(mesh.node, axis=0).max()
     pair = scipy.spatial.cKDTree(mesh.node).query_pairs(_SAME * extent, output_type="ndarray")
     if len(pair):
@@ -51,7 +97,9 @@ def check(mesh, where):
         raise ConfigError(where, "one connected body", f"{parts} parts of {np.sort(np.bincount(part))[::-1][:5]} nodes",
                           "write this body alone, or merge the nodes that its parts share")
     for kind, rows, cells in by_kind(mesh.kind, mesh.element):
-        _check_jacobians(where, mesh.node, kind, rows, cells)
+        names = [f"{k}, counted from 0" for k in rows] if labels is None else labels[rows]
+        _check_middles(where, mesh.node, kind, names, cells)
+        _check_jacobians(where, mesh.node, kind, names, cells)
 
 
 def _read(path):
@@ -92,14 +140,39 @@ def _check_size(where, extent, units):
                       f"declare mesh_units: {' or '.join(others)}" if others else "check the units of the mesh")
 
 
-def _check_jacobians(where, node, kind, rows, cells):
+def _check_middles(where, node, kind, names, cells):
+    """Refuse mid-side nodes that do not lie between their corners, as nodes in another order do."""
+    for middle, *ends in _edges(kind):
+        first, last = (node[cells[:, end]] for end in ends)
+        length = np.linalg.norm(last - first, axis=1)
+        distance = np.linalg.norm(node[cells[:, middle]] - (first + last) / 2, axis=1)
+        off = distance / np.maximum(length, np.finfo(float).tiny)
+        worst = int(np.argmax(off))
+        if off[worst] > _MIDDLE:
+            raise ConfigError(where, "mid-side nodes near the middles of their edges", f"node {middle + 1} of element"
+                              f" {names[worst]} ({kind}) {off[worst]:.2g} of its edge away",
+                              "check the order of the nodes, and mid-side nodes that were moved")
+
+
+@cache
+def _edges(kind):
+    """(vertex in the middle, corner, corner) of each edge of a cell."""
+    vertex = reference_vertices(kind)
+    corner = [k for k in range(len(vertex)) if (vertex[k] != 0.5).all()]
+    joined_by_edges = [(a, b) for a in corner for b in corner if a < b and (
+        kind.startswith("tetra") or np.count_nonzero(vertex[a] != vertex[b]) == 1 or
+        kind.startswith("wedge") and vertex[a][2] == vertex[b][2])]
+    return [(k, a, b) for a, b in joined_by_edges for k in range(len(vertex))
+            if np.array_equal(2 * vertex[k], vertex[a] + vertex[b])]
+
+
+def _check_jacobians(where, node, kind, names, cells):
     gradient = shape_functions(kind, quadrature(kind)[0])[1]
     for start in range(0, len(cells), _BATCH):
         batch = slice(start, start + _BATCH)
         volume = np.linalg.det(np.einsum("evx,qvr->eqxr", node[cells[batch]], gradient, optimize=True)).min(axis=1)
         bad = np.flatnonzero(volume <= 0)
         if len(bad):
-            number = rows[start + bad[0]]
-            raise ConfigError(where, "positive Jacobians", f"element {number} ({kind}, counted from 0) with"
+            raise ConfigError(where, "positive Jacobians", f"element {names[start + bad[0]]} ({kind}) with"
                               f" {volume[bad[0]]:.3g}",
                               "check the order of its vertices, and mid-side nodes far off their edges")

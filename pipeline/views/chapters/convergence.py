@@ -19,7 +19,7 @@ def chapter(convergence, look):
         "convergence", "Convergence of the unstable modes",
         f"Contact points ({convergence.contacts.item()} in this case), meshes of pads and disc, and the bases of the"
         f" reduced model, refined in turn at {there}. Friction map, interface law and joints stay the same: their"
-        " errors are not judged here.",
+        " errors are not judged here." + " Nor is the mesh of the disc." * ("disc_mesh" not in convergence.refinement),
         statement(convergence), _figures(convergence), _table(convergence))
 
 

@@ -32,7 +32,13 @@ def chapter(structure, modes, look):
         f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal by mode coupling needs two"
         " closely spaced modes of the assembled brake, so these frequencies decide where it can appear. The pad"
         f" pressure {'in steady sliding ' * (modes is not None)}shows where the pads wear first.",
-        figures, (_bodies(structure), _joints(structure), _free_modes(structure)), () if pictures else (NO_PICTURES,))
+        figures, (_bodies(structure), _joints(structure), _free_modes(structure)),
+        (*_mesh_notes(structure), *(() if pictures else (NO_PICTURES,))))
+
+
+def _mesh_notes(structure):
+    """What the mesh file of the disc holds and was not read, and where its materials come from."""
+    return tuple(f"Mesh file of the disc: {note}." for note in structure.disc_note)
 
 
 def _assembly(structure, picture):

@@ -115,7 +115,7 @@ def page(chapters, products, case, look):
     return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
         key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
-        measure=to_measure(case, products), measure_note=statement(case), stages=case_view.stages(case),
+        measure=to_measure(case, products), measure_note=statement(case, products), stages=case_view.stages(case),
         methods=methods, limits=limits(products))
 
 

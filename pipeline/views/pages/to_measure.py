@@ -46,7 +46,7 @@ def to_measure(case, products):
     mode that grows most (sensitivities), or the share of the variance of the growth rate of the source that they belong
     to (probability); then what commonly matters. Empty for systems without such values.
     """
-    rows = _rows(case)
+    rows = _rows(case, products)
     if not rows:
         return ()
     known = _influence(products, rows)
@@ -60,9 +60,9 @@ def to_measure(case, products):
                        tuple(under)) for part, under, title, folded in tables if part)
 
 
-def statement(case):
+def statement(case, products):
     """How many values that decide are defaults or assumed, in one sentence; '' where there are none."""
-    rows = _rows(case)
+    rows = _rows(case, products)
     defaults = sum(row[3] == DEFAULT for row in rows)
     if not rows:
         return ""
@@ -71,15 +71,16 @@ def statement(case):
             " assumed: the answer is of a typical brake as far as they go.")
 
 
-def _rows(case):
+def _rows(case, products):
     """(name, source of scatter, value, origin, meaning, rank) of the deciding values that are default or assumed."""
-    rows = []
+    rows, brake = [], products.get("structure")
+    given = {f"structure.disc.{name}" for name in getattr(brake, "disc_given", ())}
     for stage, settings in case.settings.items():
         for key, value in settings.items():
             name = f"{stage}.{key}"
             rank = next((k for k, (pattern, _) in enumerate(DECIDING) if fnmatchcase(name, pattern)), None)
             origin = case.origins.get(stage, {}).get(key, {}).get("origin", DEFAULT)
-            if rank is not None and value is not None and origin in (DEFAULT, ASSUMED):
+            if rank is not None and value is not None and origin in (DEFAULT, ASSUMED) and name not in given:
                 rows.append((name, DECIDING[rank][1], written(value, case.units.get(stage, {}).get(key, "")), origin,
                              case.meanings.get(stage, {}).get(key, ""), rank))
     return rows if "structure" in case.settings else []

@@ -1,5 +1,7 @@
 """Values of the bodies in reduced matrices."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -23,3 +25,15 @@ def test_a_body_scales_with_its_modulus_and_density():
         np.testing.assert_allclose(getattr(changed, matrix), expected, rtol=1e-12)
         assert np.linalg.norm(changed.damping[disc] - 1.1 * model.damping[disc]) == pytest.approx(
             0, abs=1e-6 * np.linalg.norm(model.damping[disc]))
+
+
+def test_a_disc_of_two_materials_scales_as_one():
+    """As a deck may give it."""
+    structure = small_structure()
+    disc = structure.disc
+    two = replace(disc, material_name=["A", "B"], density=np.repeat(disc.density, 2),
+                  elasticity=np.repeat(disc.elasticity, 2, axis=0), loss_factor=np.repeat(disc.loss_factor, 2),
+                  element_material=np.arange(len(disc.element)) % 2)
+    model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
+    names = {name for name, *_ in body_parameters(model, replace(structure, disc=two))}
+    assert {"structure.disc.young", "structure.disc.densities", "structure.disc.loss_factor"} <= names

@@ -6,8 +6,8 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, isotropic
-from pipeline.physics.fem.mesh import block, revolve
-from pipeline.physics.fem.mesh_file import read_mesh
+from pipeline.physics.fem.mesh import block, boundary_faces, revolve
+from pipeline.physics.fem.mesh_file import check, read_mesh
 from pipeline.physics.fem.reference_cells import by_kind
 from tests.physics.fem.mixed_meshes import cut
 
@@ -30,7 +30,7 @@ def ring(kind):
 @pytest.mark.parametrize("suffix", ["vtu", "inp", "msh"])
 def test_a_ring_in_millimetres_has_its_mass(tmp_path, kind, suffix):
     mesh = ring(kind)
-    read = read_mesh(written(tmp_path / f"ring.{suffix}", mesh, 1e3), "mm-t-s")
+    read, *_ = read_mesh(written(tmp_path / f"ring.{suffix}", mesh, 1e3), "mm-t-s")
     assert read.kind == kind and len(read.node) == len(mesh.node)
     table = [7200.0], [isotropic(1e11, 0.3)]
     masses = [assemble(m.node, m.element, m.kind, np.zeros(len(m.element), int), *table)[1].sum() for m in (mesh, read)]
@@ -42,7 +42,7 @@ def test_a_ring_in_millimetres_has_its_mass(tmp_path, kind, suffix):
 def test_nastran(tmp_path, suffix, kind):
     mesh = ring(kind)
     mesh = type(mesh)(mesh.node.round(6), mesh.element, kind, mesh.cell)
-    read = read_mesh(written(tmp_path / f"ring.{suffix}", mesh))
+    read, *_ = read_mesh(written(tmp_path / f"ring.{suffix}", mesh))
     assert np.allclose(read.node[read.element], mesh.node[mesh.element], atol=1e-6)
 
 
@@ -87,3 +87,43 @@ def test_coincident_nodes_parts_and_inverted_elements_are_refused(tmp_path):
     with pytest.raises(ConfigError, match="positive Jacobians.*element 0.*order of its vertices"):
         mirrored = type(mesh)(mesh.node * (1, 1, -1), mesh.element, mesh.kind, mesh.cell)
         read_mesh(written(tmp_path / "turned.vtu", mirrored))
+
+
+def test_what_is_not_taken_is_said(tmp_path):
+    mesh = ring("tetra10")
+    faces = boundary_faces(mesh)
+    meshio.Mesh(mesh.node, [("tetra10", mesh.element), ("triangle6", faces)],
+                point_data={"rim": np.ones(len(mesh.node))}).write(tmp_path / "a.vtu")
+    read, _, notes = read_mesh(tmp_path / "a.vtu")
+    assert len(read.element) == len(mesh.element) and notes == (
+        f"not read: {len(faces)} cells triangle6; data at points rim",)
+    assert read_mesh(written(tmp_path / "b.vtu", mesh))[2] == ()
+
+
+def test_mid_side_nodes_off_their_edges_are_refused():
+    """Of a straight edge of length 1 up to 0.3; a quarter is the limit of a sound element."""
+    mesh = block(*[np.linspace(0, 0.1, 2)] * 3)
+    for off, sound in ((0.2, True), (0.35, False)):
+        node = mesh.node.copy()
+        node[mesh.element[0, 8]] += (0, -0.1 * off, 0)
+        moved = type(mesh)(node, mesh.element, mesh.kind, mesh.cell)
+        if sound:
+            check(moved, "a")
+        else:
+            with pytest.raises(ConfigError, match="node 9 of element 7 .hexahedron20. 0.35 of its edge away"):
+                check(moved, "a", np.array([7]))
+
+
+def test_physical_groups_of_gmsh(tmp_path):
+    """A group of solids and one of faces, beside points that no solid has."""
+    mesh = ring("tetra10")
+    faces = boundary_faces(mesh)
+    inner = faces[np.hypot(*mesh.node[faces[:, 0], :2].T) < 0.101]
+    node = np.vstack([[(9.0, 9.0, 9.0)], mesh.node])
+    physical = [np.where(np.arange(len(mesh.element)) < 5, 1, 4), np.full(len(inner), 2)]
+    meshio.Mesh(node, [("tetra10", mesh.element + 1), ("triangle6", inner + 1)],
+                cell_data={"gmsh:physical": physical, "gmsh:geometrical": physical},
+                field_data={"few": np.array([1, 3]), "Bore": np.array([2, 2])}).write(tmp_path / "a.msh", "gmsh22")
+    read, groups, notes = read_mesh(tmp_path / "a.msh")
+    assert set(groups) == {"FEW", "BORE"} and list(groups["FEW"]) == [0, 1, 2, 3, 4] and notes == ()
+    assert np.array_equal(read.node[groups["BORE"]], mesh.node[inner])

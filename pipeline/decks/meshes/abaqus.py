@@ -1,0 +1,158 @@
+"""Decks of Abaqus and CalculiX (.inp): mesh, sets, surfaces, materials, solid sections, one part with one instance."""
+
+import re
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes import abaqus_materials
+from pipeline.decks.meshes.deck import BY_COUNT, Draft, span, whole
+from pipeline.decks.meshes.keywords import blocks, number
+
+_SOLID = re.compile(r"C3D(\d+)[A-Z]*")
+#: rows of the nodes of C3D27 (centre, then the middles of faces 1 to 6) in the order of meshio
+_TWENTYSEVEN = (*range(20), 26, 24, 23, 25, 21, 22, 20)
+#: keywords that make or move nodes and elements: without them the mesh would be another one
+_GENERATORS = {"NGEN", "NCOPY", "NFILL", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "IMPERFECTION", "SUBMODEL"}
+#: keywords that say nothing of the body
+_HOLLOW = {"HEADING", "PREPRINT", "ASSEMBLY", "END PART", "END ASSEMBLY", "END INSTANCE", "END STEP"}
+
+
+def read(path):
+    """Deck of the file at ``path``; raises ConfigError for what cannot be read as a mesh, with file and line."""
+    draft, state = Draft(f"mesh file {path}"), abaqus_materials.Materials()
+    once = {}
+    for block in blocks(path):
+        if block.name in _GENERATORS:
+            raise ConfigError(block.where, "a mesh that is written out", f"*{block.name}",
+                              "have the preprocessor write all nodes and elements")
+        if block.name in ("PART", "INSTANCE"):
+            _refuse_second(block, once, draft)
+        elif block.name in _HANDLERS:
+            _HANDLERS[block.name](block, draft)
+        elif not (block.name in _HOLLOW or state.takes(block, draft)):
+            draft.unread[f"*{block.name}"] += 1
+    state.leave(draft)
+    if "INSTANCE" in once:
+        _place(once["INSTANCE"], draft)
+    return draft.deck()
+
+
+def _refuse_second(block, once, draft):
+    if block.name in once:
+        raise ConfigError(block.where, "one part with one instance: one body", f"a second *{block.name}",
+                          "write a deck for each body, or a flat one without parts")
+    once[block.name] = block
+
+
+def _place(block, draft):
+    """Shift the nodes as the lines of *INSTANCE say."""
+    if len(block.rows) > 1:
+        raise ConfigError(block.rows[1][0], "an instance that is not turned", "a rotation",
+                          "turn the part itself, or write a flat deck without parts")
+    if block.rows:
+        shift = [number(text, block.rows[0][0], 0.0) for text in (*block.rows[0][1], "", "", "")[:3]]
+        draft.position = [tuple(p + s for p, s in zip(position, shift, strict=True)) for position in draft.position]
+
+
+def _node(block, draft):
+    if block.given.get("SYSTEM", "R").upper() != "R":
+        raise ConfigError(block.where, "Cartesian coordinates (SYSTEM=R)", f"SYSTEM={block.given['SYSTEM']}",
+                          "write the nodes in Cartesian coordinates")
+    first = len(draft.label)
+    for where, fields in block.rows:
+        values = (*fields[1:4], "", "", "")[:3]
+        draft.label.append(whole(fields[0], where))
+        draft.position.append(tuple([number(text, where, 0.0) for text in values]))
+    if "NSET" in block.given:
+        draft.node_sets.setdefault(block.given["NSET"].upper(), []).extend(draft.label[first:])
+
+
+def _element(block, draft):
+    kind_name = block.need("TYPE").upper()
+    solid = _SOLID.fullmatch(kind_name)
+    if solid and int(solid[1]) not in BY_COUNT:
+        raise ConfigError(block.where, "C3D20, C3D27, C3D10 or C3D15, with R, H and the like", kind_name,
+                          "mesh with hexahedra, tetrahedra or wedges of second order")
+    first = []
+    for where, values in _records(block, int(solid[1]) if solid else None):
+        label, *nodes = [whole(text, where) for text in values] if solid else [whole(values[0], where)]
+        first.append(label)
+        if solid:
+            order = _TWENTYSEVEN if len(nodes) == 27 else range(len(nodes))
+            draft.add_element(BY_COUNT[len(nodes)], label, [nodes[k] for k in order])
+    if not solid:
+        draft.unread[f"*ELEMENT of type {kind_name}"] += len(first)
+    if "ELSET" in block.given:
+        draft.element_sets.setdefault(block.given["ELSET"].upper(), []).extend(first)
+
+
+def _records(block, count):
+    """Yield (where, fields) of each element; a line that ends with a comma goes on in the next one.
+
+    ``count``: nodes of the type, which are checked; None = any.
+    """
+    waiting, start = [], ""
+    for where, fields in block.rows:
+        start = where if not waiting else start
+        waiting += fields[:-1] if fields[-1] == "" else fields
+        if fields[-1] == "" and (count is None or len(waiting) <= count):
+            continue
+        yield start, _counted(waiting, count, start, block)
+        waiting = []
+    if waiting:
+        yield start, _counted(waiting, count, start, block)
+
+
+def _counted(values, count, where, block):
+    if count is not None and len(values) != count + 1:
+        raise ConfigError(where, f"{count} nodes of an element of type {block.given['TYPE']}",
+                          f"{len(values) - 1} nodes", "end lines that go on in the next one with a comma")
+    return values
+
+
+def _set(kind):
+    """Reader of *NSET or *ELSET, whose members are numbers, ranges and names of sets before it."""
+    def read_set(block, draft):
+        if kind == "NSET" and "ELSET" in block.given:
+            draft.unread["*NSET of an ELSET"] += 1
+            return
+        held = draft.node_sets if kind == "NSET" else draft.element_sets
+        name, members = block.need(kind).upper(), []
+        for where, fields in block.rows:
+            if "GENERATE" in block.given:
+                ends = [whole(text, where) for text in fields if text]
+                if len(ends) not in (2, 3):
+                    raise ConfigError(where, "first number, last and step", ", ".join(fields)[:60])
+                members.extend(span(*ends[:2], (*ends, 1)[2], where))
+            else:
+                for text in filter(None, fields):
+                    members.extend(_members(text, held, where))
+        held.setdefault(name, []).extend(members)
+    return read_set
+
+
+def _members(text, held, where):
+    """Numbers that a number or the name of a set stands for; of ``instance.name`` the name counts."""
+    name = text.strip('"').rpartition(".")[2].upper()
+    if name.isdigit():
+        return [whole(name, where)]
+    if name not in held:
+        raise ConfigError(where, f"a number, or one of the sets {', '.join(list(held)[:8]) or 'before it: none'}",
+                          repr(text)[:60], "define the set before it is used")
+    return list(held[name])
+
+
+def _surface(block, draft):
+    name, kind = block.need("NAME").upper(), block.given.get("TYPE", "ELEMENT").upper()
+    if kind not in ("ELEMENT", "NODE"):
+        draft.unread[f"*SURFACE of type {kind}"] += 1
+        return
+    held = draft.node_sets if kind == "NODE" else draft.element_sets
+    parts = [(np.array(_members(fields[0], held, where), np.int64), (*fields, "")[1].upper())
+             for where, fields in block.rows if fields[0]]
+    draft.surfaces[name] = draft.surfaces.get(name, ()) + tuple(parts)
+
+
+_HANDLERS = {"NODE": _node, "ELEMENT": _element, "NSET": _set("NSET"), "ELSET": _set("ELSET"), "SURFACE": _surface,
+             "INCLUDE": lambda block, draft: None}

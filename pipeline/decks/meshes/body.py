@@ -1,0 +1,116 @@
+"""One body from the mesh file of any program: its mesh and materials in SI units, and what was not read."""
+
+import re
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.includes import following, read_lines
+from pipeline.decks.meshes import abaqus, ansys, groups, nastran
+from pipeline.physics.fem.mesh import Mesh
+from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
+
+#: ending of a deck -> its reader; meshio reads all others
+READERS = {".inp": abaqus.read, ".cdb": ansys.read, **dict.fromkeys((".bdf", ".nas", ".fem"), nastran.read)}
+#: system of units -> (its stress in Pa, its density in kg/m^3)
+_UNITS = {"SI": (1.0, 1.0), "mm-t-s": (1e6, 1e12), "mm-kg-ms": (1e9, 1e9)}
+#: densities [kg/m^3] and Young's moduli [Pa] of parts of a brake, from foams and rubbers to tungsten and ceramics
+_DENSITIES, _MODULI = (100.0, 25e3), (1e5, 2e12)
+
+
+@dataclass(frozen=True)
+class MeshedBody:
+    """Mesh [m], ``materials`` in SI units that its elements have, ``element_material`` (e,) rows of them or -1 where
+    the file says none, and ``notes``: sentences on what the file holds and was not read.
+
+    Named groups, in capitals: ``node_sets`` and ``element_sets`` {name: rows of the mesh}, ``surfaces`` {name: (f, v)
+    nodes of faces, or (k, 1) nodes}.
+    """
+
+    mesh: Mesh
+    materials: tuple
+    element_material: np.ndarray
+    notes: tuple
+    node_sets: dict = field(default_factory=dict)
+    element_sets: dict = field(default_factory=dict)
+    surfaces: dict = field(default_factory=dict)
+
+
+def read_body(path, units="SI"):
+    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), a .dat of one of
+    them, or what meshio reads.
+
+    ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for what cannot be read,
+    what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
+    """
+    path = Path(path)
+    files = (path, *following(path))
+    return _read(path, units, tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files))
+
+
+@lru_cache(maxsize=2)
+def _read(path, units, _state):
+    """The body; ``_state`` of its files makes what changed read again."""
+    reader = _reader(path)
+    if reader is None:
+        mesh, named, notes = read_mesh(path, units)
+        return MeshedBody(mesh, (), np.full(len(mesh.element), -1), notes, {},
+                          {name: rows for name, rows in named.items() if rows.ndim == 1},
+                          {name: faces for name, faces in named.items() if faces.ndim == 2})
+    deck, where = reader(path), f"mesh file {path}"
+    labels = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [np.empty(0, int)])
+    mesh, used = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)
+    materials, row = _materials(deck, labels)
+    nodes = deck.label[used]
+    return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes,
+                      {name: groups.rows_of(nodes, numbers) for name, numbers in deck.node_sets.items()},
+                      {name: groups.rows_of(labels, numbers) for name, numbers in deck.element_sets.items()},
+                      groups.surfaces(deck, mesh, labels, nodes))
+
+
+def _reader(path):
+    """Reader by the ending of a file; of .dat, which several programs write, by its content. None: meshio's."""
+    if path.suffix.lower() != ".dat":
+        return READERS.get(path.suffix.lower())
+    text = "\n".join(read_lines(path)).upper()
+    signs = {r"NBLOCK\b": ansys.read, r"\*NODE\b": abaqus.read, r"GRID\b": nastran.read}
+    return next((reader for sign, reader in signs.items() if re.search(rf"^\s*{sign}", text, re.MULTILINE)), None)
+
+
+def _materials(deck, labels):
+    """([Material with its axes], (e,) row of each element or -1); a later section overrules an earlier one."""
+    order, row, members, index = np.argsort(labels), np.full(len(labels), -1), [], {}
+    for numbers, name, axes in deck.sections:
+        key = name, None if axes is None else axes.tobytes()
+        if key not in index:
+            index[key] = len(members)
+            members.append(replace(deck.materials[name], axes=axes))
+        found = order[np.minimum(np.searchsorted(labels, numbers, sorter=order), len(labels) - 1)]
+        row[found[labels[found] == numbers]] = index[key]
+    used, compact = np.unique(row[row >= 0], return_inverse=True)
+    row[row >= 0] = compact.reshape(-1)
+    return [members[k] for k in used], row
+
+
+def _in_si(where, material, units):
+    """The material in SI units; ConfigError for constants that no part has."""
+    checked = [("density", material.density, _DENSITIES, "kg/m^3", 1)] * (material.density is not None)
+    checked += [("Young's modulus", value, _MODULI, "Pa", 0) for value in material.young or ()]
+    checked += [("shear modulus", value, _MODULI, "Pa", 0) for value in material.shear or ()]
+    for name, value, (low, high), unit, column in checked:
+        if low <= value * _UNITS[units][column] <= high:
+            continue
+        others = [each for each, factors in _UNITS.items() if low <= value * factors[column] <= high]
+        raise ConfigError(f"{where}, material {material.name}", f"a {name} of {low:g} to {high:g} {unit}",
+                          f"{value * _UNITS[units][column]:.4g} {unit} with mesh_units: {units}",
+                          f"declare mesh_units: {' or '.join(others)}" if others else f"correct the {name}")
+    scaled = material.scaled(*_UNITS[units])
+    if scaled.young is not None:
+        try:
+            scaled.elasticity()
+        except ConfigError as error:
+            raise ConfigError(f"{where}, material {material.name}", error.expected, error.found) from None
+    return scaled
