@@ -9,6 +9,7 @@ import pytest
 from scipy.io import savemat
 
 from pipeline.contract import ConfigError
+from pipeline.contract.received import process
 from pipeline.recordings import apart
 from tests.recordings import test_neutral, test_uff
 from tests.recordings.files_of_others import SINE, mdf, sound, tdms
@@ -46,7 +47,7 @@ def test_what_a_reader_does_not_survive_is_one_sentence(tmp_path, monkeypatch, c
                                                f"def read(path, folder):\n    {code}\n"
                                                "a.read_audio = read\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(apart, "_SECONDS", 1)
+    monkeypatch.setattr(process, "_SECONDS", 1)
     with pytest.raises(ConfigError, match=told):
         apart.waveforms("audio", sound(tmp_path / "a.wav"))
 

@@ -1,5 +1,7 @@
 """Meshes of bodies from files that meshio reads, in declared units, with the checks that a body needs."""
 
+from pathlib import Path
+
 import numpy as np
 import scipy
 
@@ -9,6 +11,9 @@ from pipeline.physics.fem.reference_cells import MIXED, by_kind, quadrature, sha
 
 #: system of units of a mesh -> its length in metres
 LENGTH = {"SI": 1.0, "mm-t-s": 1e-3, "mm-kg-ms": 1e-3}
+#: formats that are read: none of them takes data from another file
+_FORMATS = (".inp", ".msh", ".vtu", ".vtk", ".bdf", ".nas", ".fem")
+_REMEDY = "check that the file is whole, or write it as Abaqus .inp, gmsh or VTU"
 _KINDS = ("hexahedron20", "hexahedron27", "tetra10")
 _LINEAR = ("hexahedron", "tetra", "wedge")
 #: smallest and largest extent [m] of a part of a brake
@@ -26,6 +31,7 @@ def read_mesh(path, units="SI"):
     """
     where, read = f"mesh file {path}", _read(path)
     blocks = _served(where, [(b.type, b.data) for b in read.cells if b.dim == 3])
+    _check_nodes(where, blocks, len(read.points))
     kind, element = joined(blocks)
     used, compact = np.unique(element, return_inverse=True)
     node = np.asarray(read.points[used], float)
@@ -57,14 +63,17 @@ def check(mesh, where):
 def _read(path):
     import meshio
 
+    if Path(path).suffix.lower() not in _FORMATS:
+        raise ConfigError(f"mesh file {path}", f"one of {', '.join(_FORMATS)}", repr(Path(path).suffix), _REMEDY)
     try:
         return meshio.read(path)
     except (OSError, SystemExit, meshio.ReadError, ValueError) as error:
         reason = str(error) or "none"
-    except (IndexError, KeyError, TypeError, AttributeError, AssertionError) as error:
+    except MemoryError:
+        reason = "one that declares more than the memory holds"
+    except Exception as error:  # meshio passes on whatever its parsers stumble over
         reason = f"one that stops its reader ({type(error).__name__}: {error})"
-    raise ConfigError(f"mesh file {path}", "a mesh that meshio can read", reason,
-                      "check that the file is whole, or write it as Abaqus .inp, gmsh or VTU")
+    raise ConfigError(f"mesh file {path}", "a mesh that meshio can read", reason, _REMEDY)
 
 
 def _served(where, blocks):
@@ -79,6 +88,13 @@ def _served(where, blocks):
         raise ConfigError(where, f"cells out of {', '.join(_KINDS)} ({MIXED} without hexahedron27)",
                           ", ".join(sorted(kinds)) or "no solid cells", "mesh with quadratic hexahedra or tetrahedra")
     return blocks
+
+
+def _check_nodes(where, blocks, count):
+    strange = [node for _, cells in blocks for node in np.unique(cells) if not 0 <= node < count]
+    if strange:
+        raise ConfigError(where, f"elements of its {count} nodes", f"a vertex at row {strange[0]}",
+                          "the file is damaged, or lacks nodes: write it again")
 
 
 def _check_size(where, extent, units):
