@@ -77,7 +77,8 @@ def _rescale(rng, node, key, places):
     if isinstance(value, str) and " " in value:
         node[key] = f"{draw(rng, EXTREMES)} {value.partition(' ')[2]}"
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        node[key] = draw(rng, (-value, 0, value * 10**int(rng.integers(-12, 13)), value + 1, float(value)))
+        size = 10**int(rng.integers(13))
+        node[key] = draw(rng, (-value, 0, value * size, value // size if value == value else 7, value + 1, f"{value}"))
     else:
         node[key] = deepcopy(draw(rng, _VALUES))
 

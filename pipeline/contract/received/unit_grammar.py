@@ -16,9 +16,9 @@ LONGEST, _PARTS, _DEPTH = 120, 24, 6
 POWER = 9
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _RAISED = re.compile(r"[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-_NUMBER = r"[-+]?\s*(?:\d(?:\.[05])?|\.5)(?:\s*/\s*\d)?"
+_NUMBER = r"[-+]?\s*(?:[0-9](?:\.[05])?|\.5)(?:\s*/\s*[0-9])?"
 _TOKEN = re.compile(rf"\s*(?:(?P<power>(?:\^|\*\*)\s*(?:\(\s*(?P<inner>{_NUMBER})\s*\)|"
-                    r"(?P<bare>[-+]?(?:\d(?:\.[05])?|\.5))))(?![\w.])|(?P<name>[^\W\d]\w{0,39}|[%°]\w{0,39})|(?P<one>1)(?![\w.])|(?P<mark>[*/()·⋅]))")
+                    r"(?P<bare>[-+]?(?:[0-9](?:\.[05])?|\.5))))(?![\w.])|(?P<name>[^\W\d]\w{0,39}|[%°]\w{0,39})|(?P<one>1)(?![\w.])|(?P<mark>[*/()·⋅]))")
 
 
 class NoUnitError(ValueError):
