@@ -54,7 +54,7 @@ def _tried(target, seed, first, until):
     row, failures, begin = Row(target.name, seed, first), [], time.monotonic()
     for number, result in tried(target, seed, range(first, first + 10_000_000), until):
         row.counts[result.kind] += 1
-        row.known += result.how not in ("", "damaged")
+        row.known += result.known
         row.slowest = max(row.slowest, result.seconds)
         if result.kind in BAD:
             failures.append({"target": target.name, "seed": seed, "number": number, "kind": result.kind,

@@ -34,8 +34,13 @@ class Trial:
     content: bytes
     how: str = "damaged"
     given: dict = field(default_factory=dict)
-    check: Callable = lambda value: ""
+    check: Callable = None
     must: str = "either"
+
+    @property
+    def known(self):
+        """Whether it has a known answer."""
+        return self.check is not None or self.must != "either"
 
 
 @dataclass(frozen=True)
@@ -60,12 +65,14 @@ class Target:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a Trial: one of GOOD or BAD, what was changed, what was said, and seconds."""
+    """What became of a Trial: one of GOOD or BAD, what was changed, what was said, seconds, and whether its answer is
+    known."""
 
     kind: str
     how: str = ""
     said: str = ""
     seconds: float = 0.0
+    known: bool = False
 
 
 def outcome(target, trial, folder):
@@ -74,7 +81,7 @@ def outcome(target, trial, folder):
     path.write_bytes(trial.content)
     try:
         value = target.read(path, **trial.given)
-        said = "read, although damaged" if trial.must == "refuse" else trial.check(value)
+        said = "read, although damaged" if trial.must == "refuse" else trial.check(value) if trial.check else ""
         kind = "wrong" if said else "read"
     except BrakechainError as error:
         kind, said = _judged(error, trial)
@@ -83,7 +90,7 @@ def outcome(target, trial, folder):
         kind, said = "internal", f"{type(error).__name__}: {error} [{Path(place.filename).name}:{place.lineno}]"
     finally:
         path.unlink(missing_ok=True)
-    return Outcome(kind, trial.how, said[:400], time.perf_counter() - begin)
+    return Outcome(kind, trial.how, said[:400], time.perf_counter() - begin, trial.known)
 
 
 def _judged(error, trial):

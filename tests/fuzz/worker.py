@@ -17,8 +17,8 @@ _SOON = 15.0
 
 
 def tried(target, seed, numbers, until=float("inf"), patience=PATIENCE):
-    """Yield (number, Outcome) of the inputs ``numbers`` of a target, until this time of time.monotonic()."""
-    numbers = list(numbers)
+    """Yield (number, Outcome) of the inputs ``numbers`` (a list or range) of a target, until this time of
+    time.monotonic()."""
     while numbers and time.monotonic() < until:
         done = 0
         for number, result in _batch(target, seed, numbers, until, _SOON if target.apart else patience):

@@ -3,7 +3,7 @@
     unit    = ["1"] part { ("*" | "/" | " ") part }
     part    = name [power] | "(" unit ")" [power]
     power   = ("^" | "**") [sign] exponent, the exponent also in parentheses, or superscript digits
-    exponent = whole number up to 9, or 0.5, 1.5, ..., or a fraction such as 1/2
+    exponent = whole number from 1 to 9, or 0.5, 1.5, ..., or a fraction such as 1/2
 
 No number but 1 stands for itself, and powers of powers multiply to 9 at most: to evaluate such a text takes no time.
 """
@@ -57,8 +57,8 @@ def _tokens(text):
 def _size(power):
     """Absolute value of a power."""
     above, _, below = power.replace(" ", "").partition("/")
-    if below == "0":
-        raise NoUnitError("a power by 0")
+    if below == "0" or float(above) == 0.0:
+        raise NoUnitError("a power of 0, or by 0")
     return abs(float(above)) / float(below or 1)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.process import answered
 from pipeline.physics.fem.mesh import Mesh, joined
 from pipeline.physics.fem.reference_cells import MIXED, by_kind, quadrature, shape_functions
 
@@ -21,14 +22,20 @@ _SIZES = 5e-3, 2.0
 #: nodes nearer than this share of the extent are one node
 _SAME = 1e-7
 _BATCH = 2048
+_MESH = "mesh.npz"
 
 
 def read_mesh(path, units="SI"):
-    """Mesh [m] of a file that meshio reads, in one of the systems of units LENGTH.
+    """Mesh [m] of a file that meshio reads, in one of the systems of units LENGTH; read in a process of its own.
 
     Raises ConfigError for an unreadable file, cells not served, a size that no part of a brake has, nodes that lie in
     one place, disconnected parts and elements turned inside out.
     """
+    return answered(f"{__name__}:leave", path, _mesh, units=units)
+
+
+def leave(path, folder, units):
+    """In the child process: read the mesh and leave it in ``folder``."""
     where, read = f"mesh file {path}", _read(path)
     blocks = _served(where, [(b.type, b.data) for b in read.cells if b.dim == 3])
     _check_nodes(where, blocks, len(read.points))
@@ -38,7 +45,12 @@ def read_mesh(path, units="SI"):
     _check_size(where, np.ptp(node, axis=0).max(), units)
     mesh = Mesh(LENGTH[units] * node, compact.reshape(element.shape), kind, np.zeros((len(element), 3), int))
     check(mesh, where)
-    return mesh
+    np.savez(Path(folder) / _MESH, node=mesh.node, element=mesh.element, kind=kind, cell=mesh.cell)
+
+
+def _mesh(folder):
+    with np.load(folder / _MESH) as held:
+        return Mesh(held["node"], held["element"], str(held["kind"]), held["cell"])
 
 
 def check(mesh, where):
@@ -70,7 +82,7 @@ def _read(path):
     except (OSError, SystemExit, meshio.ReadError, ValueError) as error:
         reason = str(error) or "none"
     except MemoryError:
-        reason = "one that declares more than the memory holds"
+        raise
     except Exception as error:  # meshio passes on whatever its parsers stumble over
         reason = f"one that stops its reader ({type(error).__name__}: {error})"
     raise ConfigError(f"mesh file {path}", "a mesh that meshio can read", reason, _REMEDY)

@@ -261,5 +261,5 @@ def _scan_arranged(rng):
 
 
 TARGETS = (Target("matrix", _matrix, _matrix_damaged, (_matrix_arranged, _matrix_doubled), True),
-           Target("mesh", _meshed, _mesh_damaged, (_mesh_arranged,), share=0.15),
+           Target("mesh", _meshed, _mesh_damaged, (_mesh_arranged,), True, share=0.15),
            Target("scan", _scanned, _scan_damaged, (_scan_arranged,), True, share=0.15))
