@@ -1,11 +1,13 @@
 """Inputs tried in a child of this process: what it does not survive, or is not done with in time, is known by number."""
 
+import faulthandler
 import json
 import os
 import select
 import signal
 import tempfile
 import time
+import warnings
 from dataclasses import asdict
 
 from tests.fuzz.trial import Outcome, in_this_process, outcome
@@ -72,6 +74,9 @@ def _serve(target, seed, numbers, until, writer):
     """The child: an answer a line, then null; never returns."""
     try:
         import resource
+
+        faulthandler.disable()
+        warnings.simplefilter("ignore")     # as a user sees them: tests make errors of them
 
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))

@@ -132,10 +132,8 @@ def _meshed(path, units="SI"):
 
 
 def _mesh_damaged(rng):
-    form = draw(rng, (".inp", ".msh", ".vtu", ".bdf", ".vtk", ".unv", ".inp", ".med", ".h5m", ".xdmf", ".mesh", ".ply",
-                      ".xml", ".off", ".stl", ".obj", ".post", ".cgns", ".e", ".ugrid", ".node", ".avs", ".dat", ".su2",
-                      ".msh", ".tec", ".f3grid", ".wkt", ".svg"))
-    written = form if form in (".inp", ".msh", ".vtu", ".bdf", ".vtk", ".h5m", ".med") else draw(rng, (".inp", ".bdf"))
+    form = draw(rng, (".inp", ".msh", ".vtu", ".bdf", ".vtk", ".inp", ".msh", ".vtu", ".vtk", ".med", ".xdmf", ".su2", ".cgns"))
+    written = form if form in (".inp", ".msh", ".vtu", ".bdf", ".vtk", ".med") else draw(rng, (".inp", ".bdf"))
     content = _mesh_content(written, 1.0)
     return Trial(f"a{form}", (garbled if written in (".inp", ".bdf") else damaged)(rng, content))
 
