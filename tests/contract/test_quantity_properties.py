@@ -24,7 +24,9 @@ GRAMMAR = st.text("mskgNPa*/^()-0123456789.² ⁻¹%°µ_e+'\"x\t", max_size=24)
 @MANY
 @given(NUMBERS, st.sampled_from(sorted(PREFIXES)), st.sampled_from(("m", "s", "N", "Pa")))
 def test_a_prefix_is_its_power_of_ten(number, prefix, unit):
-    assert units.to_si(f"{number!r} {prefix}{unit}", unit, "x") == pytest.approx(number * 10.0 ** PREFIXES[prefix], rel=1e-14)
+    assert units.to_si(f"{number!r} {prefix}{unit}", unit, "x") == pytest.approx(
+        number * 10.0 ** PREFIXES[prefix], rel=1e-14
+    )
 
 
 @MANY
@@ -63,7 +65,9 @@ def test_any_text_is_a_unit_or_refused(text):
 
 
 @MANY
-@given(GRAMMAR | st.tuples(NUMBERS, GRAMMAR).map(lambda pair: f"{pair[0]!r} {pair[1]}"), st.sampled_from(sorted(units.SI)))
+@given(
+    GRAMMAR | st.tuples(NUMBERS, GRAMMAR).map(lambda pair: f"{pair[0]!r} {pair[1]}"), st.sampled_from(sorted(units.SI))
+)
 def test_any_text_is_a_finite_quantity_or_refused(text, unit):
     try:
         assert math.isfinite(units.to_si(text, unit, "x"))
@@ -71,14 +75,18 @@ def test_any_text_is_a_finite_quantity_or_refused(text, unit):
         assert error.expected and len(str(error)) <= 2000
 
 
-QUANTITIES = sorted((stage, key, unit) for stage in stages.NAMES for key, value, unit, _ in leaves(
-    stages.load(stage).settings()) if unit and isinstance(value, float) and not any(s.isdigit() for s in key.split(".")))
+QUANTITIES = sorted(
+    (stage, key, unit)
+    for stage in stages.NAMES
+    for key, value, unit, _ in leaves(stages.load(stage).settings())
+    if unit and isinstance(value, float) and not any(s.isdigit() for s in key.split("."))
+)
 
 
 @FEW
 @given(st.data())
 def test_settings_come_back_from_what_they_are_stored_as(data):
-    """A quantity of any stage, in its unit, is held to the bit, and survives storing and restoring beside all others."""
+    """A quantity of any stage, in its unit, is held to the bit, and survives storing and restoring."""
     stage, key, unit = data.draw(st.sampled_from(QUANTITIES))
     number = data.draw(NUMBERS.map(abs) | NUMBERS)
     values = f"{number!r} {unit}" if unit != "1" else number
@@ -91,4 +99,4 @@ def test_settings_come_back_from_what_they_are_stored_as(data):
         return
     again = restored(type(section), stored(section))
     assert again == section
-    assert dict((k, v) for k, v, *_ in leaves(again))[key] == number
+    assert {k: v for k, v, *_ in leaves(again)}[key] == number

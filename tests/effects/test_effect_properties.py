@@ -1,4 +1,4 @@
-"""Properties of laws of joints, over values and motions: odd ones are odd, dissipative ones take energy, elastic ones none.
+"""Properties of laws of joints over values and motions: odd, dissipative, elastic, nothing at the null.
 
 Each is what the equation of its module says. The force of a law is what it adds to the equation of motion of one mass.
 """
@@ -16,13 +16,47 @@ from tests.effects.benches import RATE, let_go, sprung
 
 BENCH, RUN, FREE = sprung(), let_go(0.0, 0.0, 1.0), let_go(3e-3, 0.0, 1.0)
 #: F(-q) = -F(q): the law knows no direction
-ODD = ("coulomb", "joint_damping", "cubic_stiffness", "quadratic_damping", "hysteretic_joint", "bouc_wen", "backlash",
-       "attached_mass", "added_stiffness", "compliant_arm", "viscoelastic_pad", "shim_damping", "logarithmic_friction",
-       "rate_state_ageing", "rate_state_slip", "dahl", "jenkins", "lugre", "series_stiffness", "stribeck_joint")
+ODD = (
+    "coulomb",
+    "joint_damping",
+    "cubic_stiffness",
+    "quadratic_damping",
+    "hysteretic_joint",
+    "bouc_wen",
+    "backlash",
+    "attached_mass",
+    "added_stiffness",
+    "compliant_arm",
+    "viscoelastic_pad",
+    "shim_damping",
+    "logarithmic_friction",
+    "rate_state_ageing",
+    "rate_state_slip",
+    "dahl",
+    "jenkins",
+    "lugre",
+    "series_stiffness",
+    "stribeck_joint",
+)
 #: over a cycle of a periodic motion the law takes energy from the joint
-DISSIPATIVE = ("coulomb", "joint_damping", "quadratic_damping", "hysteretic_joint", "bouc_wen", "logarithmic_friction",
-               "rate_state_ageing", "rate_state_slip", "dahl", "jenkins", "lugre", "series_stiffness", "stribeck_joint",
-               "viscoelastic_pad", "shim_damping", "position_friction")
+DISSIPATIVE = (
+    "coulomb",
+    "joint_damping",
+    "quadratic_damping",
+    "hysteretic_joint",
+    "bouc_wen",
+    "logarithmic_friction",
+    "rate_state_ageing",
+    "rate_state_slip",
+    "dahl",
+    "jenkins",
+    "lugre",
+    "series_stiffness",
+    "stribeck_joint",
+    "viscoelastic_pad",
+    "shim_damping",
+    "position_friction",
+)
 #: over such a cycle it takes none
 ELASTIC = ("cubic_stiffness", "quadratic_stiffness", "attached_mass", "added_stiffness", "backlash")
 QUANTILES, AMPLITUDES = st.floats(0.05, 0.95), st.tuples(st.floats(0.2, 1.0), st.floats(-0.5, 0.5), st.floats(0.0, 6.0))
@@ -65,8 +99,19 @@ def each(names):
 
 def test_every_law_of_a_joint_is_odd_or_says_why_not():
     """A new law of a joint joins a list above, or this one."""
-    other = {"asymmetric_friction", "quadratic_stiffness", "position_friction", "thermal_softening", "parametric_stiffness",
-             "moving_base", "base_shake", "viscous", "velocity_strengthening", "micro_slip", "clearance"}
+    other = {
+        "asymmetric_friction",
+        "quadratic_stiffness",
+        "position_friction",
+        "thermal_softening",
+        "parametric_stiffness",
+        "moving_base",
+        "base_shake",
+        "viscous",
+        "velocity_strengthening",
+        "micro_slip",
+        "clearance",
+    }
     assert {e.name for e in CATALOGUE if e.location == "joint" and e.locations(BENCH)} <= {*ODD, *other}
 
 
@@ -104,6 +149,12 @@ def test_elastic_laws_take_none(name, quantiles, shape):
 def test_at_the_null_nothing_is_added_whatever_the_other_values_are(name, quantiles, shape):
     """Every parameter that has a null vanishes alone where it is the only one; the rest keep values that were drawn."""
     values, parameters = drawn(named(name), quantiles)
-    null = {**values, **{p.name: value for p, value in zip(parameters, null_values(parameters).values(), strict=True)
-                         if p.null is not None}}
+    null = {
+        **values,
+        **{
+            p.name: value
+            for p, value in zip(parameters, null_values(parameters).values(), strict=True)
+            if p.null is not None
+        },
+    }
     assert not force(named(name), null, motion(shape)).any()

@@ -1,15 +1,77 @@
-"""Mutations of documents of plain values, as YAML and JSON hold them: keys and values lost, renamed, retyped, nested."""
+"""Mutations of documents of plain values, as in YAML and JSON: keys and values lost, renamed, retyped, nested."""
 
 from copy import deepcopy
 
 from tests.fuzz.mutation import EXTREMES, draw
 
-_TEXTS = ("", "x", "nowhere", "-1 mm", "0 m", "1e308 m", "nan", "3", "12 mm", "1:30", "measured:none", "../../x", "*",
-          "12 mm/s", "0.3 m/s", "5 %", "\u2028", "9**9**9 m", "é" * 50, "a.b.c", "block.x", "disc", "[1, 2]", "{}", "#",
-          "ground", "2026-11-27", "~", "yes", "0x1f", "1e3", "_", "/", "/dev/null", "a" * 5000, "\x1b[2J", "0.1.x")
-_VALUES = (None, True, False, 0, -1, 1, 10**30, 10**400, 1e308, -1e-320, float("nan"), float("inf"), [], {}, [[]],
-           [None], {"a": {}}, {"value": 1}, {"value": "3 mm", "origin": "stated"}, {"value": {}, "origin": 7},
-           {"kind": "none"}, {"based_on": None}, [1, "a", {}], {"file": "x"}, {1: 2}, {None: 1}, {True: "x"})
+_TEXTS = (
+    "",
+    "x",
+    "nowhere",
+    "-1 mm",
+    "0 m",
+    "1e308 m",
+    "nan",
+    "3",
+    "12 mm",
+    "1:30",
+    "measured:none",
+    "../../x",
+    "*",
+    "12 mm/s",
+    "0.3 m/s",
+    "5 %",
+    "\u2028",
+    "9**9**9 m",
+    "é" * 50,
+    "a.b.c",
+    "block.x",
+    "disc",
+    "[1, 2]",
+    "{}",
+    "#",
+    "ground",
+    "2026-11-27",
+    "~",
+    "yes",
+    "0x1f",
+    "1e3",
+    "_",
+    "/",
+    "/dev/null",
+    "a" * 5000,
+    "\x1b[2J",
+    "0.1.x",
+)
+_VALUES = (
+    None,
+    True,
+    False,
+    0,
+    -1,
+    1,
+    10**30,
+    10**400,
+    1e308,
+    -1e-320,
+    float("nan"),
+    float("inf"),
+    [],
+    {},
+    [[]],
+    [None],
+    {"a": {}},
+    {"value": 1},
+    {"value": "3 mm", "origin": "stated"},
+    {"value": {}, "origin": 7},
+    {"kind": "none"},
+    {"based_on": None},
+    [1, "a", {}],
+    {"file": "x"},
+    {1: 2},
+    {None: 1},
+    {True: "x"},
+)
 
 
 def reshaped(rng, document):
@@ -26,7 +88,7 @@ def reshaped(rng, document):
 
 def _places(node):
     """(container, key or index) of every value within ``node``."""
-    for key in (list(node) if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ()):
+    for key in list(node) if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ():
         yield node, key
         yield from _places(node[key])
 
@@ -60,7 +122,7 @@ def _exchange(rng, node, key, places):
     other, there = draw(rng, places)
     try:
         node[key] = deepcopy(other[there])
-    except (KeyError, IndexError):      # a place that an earlier change took away
+    except (KeyError, IndexError):  # a place that an earlier change took away
         node[key] = None
 
 
@@ -77,7 +139,7 @@ def _rescale(rng, node, key, places):
     if isinstance(value, str) and " " in value:
         node[key] = f"{draw(rng, EXTREMES)} {value.partition(' ')[2]}"
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        size = 10**int(rng.integers(13))
+        size = 10 ** int(rng.integers(13))
         node[key] = draw(rng, (-value, 0, value * size, value // size if value == value else 7, value + 1, f"{value}"))
     else:
         node[key] = deepcopy(draw(rng, _VALUES))

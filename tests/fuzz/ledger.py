@@ -38,23 +38,43 @@ class Row:
 
     def cells(self, commit=""):
         """Its cells, by HEAD."""
-        return (commit, self.target, self.seed, self.first, self.tried, *(self.counts[kind] for kind in KINDS), self.known,
-                round(self.slowest, 2), round(self.seconds, 1))
+        return (
+            commit,
+            self.target,
+            self.seed,
+            self.first,
+            self.tried,
+            *(self.counts[kind] for kind in KINDS),
+            self.known,
+            round(self.slowest, 2),
+            round(self.seconds, 1),
+        )
 
 
 def table(rows):
     """Lines of a table of Rows, with their sum."""
     head = ("target", "tried", *KINDS, "known", "slowest s")
-    lines = [(row.target, row.tried, *(row.counts[kind] for kind in KINDS), row.known, f"{row.slowest:.1f}") for row in rows]
-    total = ["all", *(sum(int(line[k]) for line in lines) for k in range(1, len(head) - 1)),
-             f"{max((row.slowest for row in rows), default=0.0):.1f}"]
+    lines = [
+        (row.target, row.tried, *(row.counts[kind] for kind in KINDS), row.known, f"{row.slowest:.1f}") for row in rows
+    ]
+    total = [
+        "all",
+        *(sum(int(line[k]) for line in lines) for k in range(1, len(head) - 1)),
+        f"{max((row.slowest for row in rows), default=0.0):.1f}",
+    ]
     return ["  ".join(f"{cell!s:>9}" for cell in line) for line in (head, *lines, total)]
 
 
 def next_number(target, seed):
     """The first number of a target that no run of the ledger tried."""
-    return max((int(row["first"]) + int(row["tried"]) for row in _rows() if row["target"] == target
-                and int(row["seed"]) == seed), default=0)
+    return max(
+        (
+            int(row["first"]) + int(row["tried"])
+            for row in _rows()
+            if row["target"] == target and int(row["seed"]) == seed
+        ),
+        default=0,
+    )
 
 
 def _rows():
@@ -73,8 +93,13 @@ def append(rows):
 
 
 def _commit():
-    done = subprocess.run(["git", "describe", "--always", "--dirty=+", "--exclude=*"], cwd=ROOT, capture_output=True,
-                          text=True, check=False)
+    done = subprocess.run(
+        ["git", "describe", "--always", "--dirty=+", "--exclude=*"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return done.stdout.strip()
 
 
@@ -88,5 +113,7 @@ def keep(failures):
     known = {(s["target"], s["seed"], s["number"]) for s in seeds()}
     fresh = [f for f in failures if (f["target"], f["seed"], f["number"]) not in known]
     with SEEDS.open("a", encoding="utf-8") as file:
-        file.writelines("- " + yaml.safe_dump(f, default_flow_style=True, sort_keys=False, width=10**6, allow_unicode=True)
-                        for f in fresh)
+        file.writelines(
+            "- " + yaml.safe_dump(f, default_flow_style=True, sort_keys=False, width=10**6, allow_unicode=True)
+            for f in fresh
+        )

@@ -1,17 +1,82 @@
-"""Mutations of files: bytes, text and documents, each drawn from one seeded generator, so that a number names an input."""
+"""Mutations of bytes and text, drawn from one seeded generator, so that a number names an input."""
 
 import struct
 
 #: numbers that readers stumble over, as text and as bytes
-EXTREMES = ("0", "-0", "-1", "1", "2147483647", "-2147483648", "4294967296", "9223372036854775808", "1e308", "1e-320",
-            "1e400", "-1e308", "nan", "inf", "-inf", "1e", "0x10", "1_000", "1,5", "１２", "", "-", ".", "1e3", "1d3",
-            "00", "99999999999999999999999999", "0.1.2", "+", "true", "null")
-_WORDS = tuple(struct.pack(form, value) for form, values in (
-    ("<i", (0, 1, -1, 2**31 - 1, -2**31, 2, 3, 255, 65535)), (">i", (1, -1, 2**31 - 1, -2**31, 2)),
-    ("<q", (0, -1, 2**63 - 1, 1, 2**40)), (">q", (2**63 - 1, 1)), ("<h", (0, -1, 2**15 - 1, 1)), (">h", (1, -2**15)),
-    ("<d", (float("nan"), float("inf"), 1e308, -1.0, 0.0, 1e-310))) for value in values)
-_MARKS = (b"\0", b"\xff", b"\xef\xbb\xbf", b"\xc3", b"\x80", b"\r", b"\t", b"\x1b[2J", b'"', b"'", b"%", b"#", b"*",
-          b"\x85", b"\xe2\x80\xa8", b"/", b"\\", b"${x}", b"../", b"%s%n", b"{", b"}", b"[", b"&a", b"*a", b"!!python/x")
+EXTREMES = (
+    "0",
+    "-0",
+    "-1",
+    "1",
+    "2147483647",
+    "-2147483648",
+    "4294967296",
+    "9223372036854775808",
+    "1e308",
+    "1e-320",
+    "1e400",
+    "-1e308",
+    "nan",
+    "inf",
+    "-inf",
+    "1e",
+    "0x10",
+    "1_000",
+    "1,5",
+    "１２",
+    "",
+    "-",
+    ".",
+    "1e3",
+    "1d3",
+    "00",
+    "99999999999999999999999999",
+    "0.1.2",
+    "+",
+    "true",
+    "null",
+)
+_WORDS = tuple(
+    struct.pack(form, value)
+    for form, values in (
+        ("<i", (0, 1, -1, 2**31 - 1, -(2**31), 2, 3, 255, 65535)),
+        (">i", (1, -1, 2**31 - 1, -(2**31), 2)),
+        ("<q", (0, -1, 2**63 - 1, 1, 2**40)),
+        (">q", (2**63 - 1, 1)),
+        ("<h", (0, -1, 2**15 - 1, 1)),
+        (">h", (1, -(2**15))),
+        ("<d", (float("nan"), float("inf"), 1e308, -1.0, 0.0, 1e-310)),
+    )
+    for value in values
+)
+_MARKS = (
+    b"\0",
+    b"\xff",
+    b"\xef\xbb\xbf",
+    b"\xc3",
+    b"\x80",
+    b"\r",
+    b"\t",
+    b"\x1b[2J",
+    b'"',
+    b"'",
+    b"%",
+    b"#",
+    b"*",
+    b"\x85",
+    b"\xe2\x80\xa8",
+    b"/",
+    b"\\",
+    b"${x}",
+    b"../",
+    b"%s%n",
+    b"{",
+    b"}",
+    b"[",
+    b"&a",
+    b"*a",
+    b"!!python/x",
+)
 
 
 def draw(rng, options):
@@ -52,11 +117,11 @@ def _flipped(rng, content):
 
 
 def _cut(rng, content):
-    return content[:int(rng.integers(len(content) + 1))]
+    return content[: int(rng.integers(len(content) + 1))]
 
 
 def _beheaded(rng, content):
-    return content[int(rng.integers(min(len(content), 64) + 1)):]
+    return content[int(rng.integers(min(len(content), 64) + 1)) :]
 
 
 def _filled(rng, content):
@@ -88,7 +153,7 @@ def _reworded(rng, content):
     """A number of 2 to 8 bytes becomes an extreme one, mostly where numbers are aligned."""
     word, begin = draw(rng, _WORDS), _position(rng, content)
     begin -= begin % (len(word) if rng.random() < 0.7 else 1)
-    return content[:begin] + word + content[begin + len(word):]
+    return content[:begin] + word + content[begin + len(word) :]
 
 
 def _marked(rng, content):
@@ -96,8 +161,22 @@ def _marked(rng, content):
     return content[:begin] + draw(rng, _MARKS) + content[begin:]
 
 
-_OF_BYTES = (_flipped, _flipped, _flipped, _cut, _beheaded, _filled, _random, _lost, _doubled, _exchanged, _reworded,
-             _reworded, _reworded, _marked)
+_OF_BYTES = (
+    _flipped,
+    _flipped,
+    _flipped,
+    _cut,
+    _beheaded,
+    _filled,
+    _random,
+    _lost,
+    _doubled,
+    _exchanged,
+    _reworded,
+    _reworded,
+    _reworded,
+    _marked,
+)
 
 
 def _lines(content):
@@ -148,12 +227,31 @@ def _field_again(rng, content):
 
 def _recoded(rng, content):
     text = content.decode("latin-1")
-    return draw(rng, (lambda: text.encode("utf-16"), lambda: text.replace("m", "µ").encode("latin-1"),
-                      lambda: content.replace(b"\n", b"\r"), lambda: content.upper(),
-                      lambda: content.replace(b".", b","), lambda: content.replace(b"\n", b""),
-                      lambda: b"\n" * 1000 + content, lambda: content.replace(b" ", b"\t"),
-                      lambda: content + b"x" * 3000))()
+    return draw(
+        rng,
+        (
+            lambda: text.encode("utf-16"),
+            lambda: text.replace("m", "µ").encode("latin-1"),
+            lambda: content.replace(b"\n", b"\r"),
+            lambda: content.upper(),
+            lambda: content.replace(b".", b","),
+            lambda: content.replace(b"\n", b""),
+            lambda: b"\n" * 1000 + content,
+            lambda: content.replace(b" ", b"\t"),
+            lambda: content + b"x" * 3000,
+        ),
+    )()
 
 
-_OF_TEXT = (*_OF_BYTES, _line_lost, _line_again, _lines_exchanged, _extreme, _extreme, _extreme, _field_lost,
-            _field_again, _recoded)
+_OF_TEXT = (
+    *_OF_BYTES,
+    _line_lost,
+    _line_again,
+    _lines_exchanged,
+    _extreme,
+    _extreme,
+    _extreme,
+    _field_lost,
+    _field_again,
+    _recoded,
+)

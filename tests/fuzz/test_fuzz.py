@@ -11,9 +11,29 @@ from tests.fuzz.trial import BAD
 from tests.fuzz.worker import tried
 
 #: inputs of each target, about a second of processor; those of 'make fuzz' have other seeds
-SHORT = {"table": 400, "friction": 300, "sep005": 300, "matlab": 150, "hdf5": 25, "uff": 80, "audio": 250, "tdms": 200, "mdf": 60,
-         "matrix": 80, "mesh": 120, "scan": 20, "case": 40, "facts": 120, "schedule": 100, "quantity": 600, "product": 150,
-         "inspect": 60, "run list": 500, "verify set": 15, "score set": 30}
+SHORT = {
+    "table": 400,
+    "friction": 300,
+    "sep005": 300,
+    "matlab": 150,
+    "hdf5": 25,
+    "uff": 80,
+    "audio": 250,
+    "tdms": 200,
+    "mdf": 60,
+    "matrix": 80,
+    "mesh": 120,
+    "scan": 20,
+    "case": 40,
+    "facts": 120,
+    "schedule": 100,
+    "quantity": 600,
+    "product": 150,
+    "inspect": 60,
+    "run list": 500,
+    "verify set": 15,
+    "score set": 30,
+}
 
 
 @pytest.fixture(autouse=True)

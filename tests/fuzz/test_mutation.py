@@ -11,7 +11,9 @@ from tests.fuzz.mutation import damaged, garbled
 TEXT = b"time,force,moved\n" + b"".join(b"%d,%d.5,1e-3\n" % (k, k) for k in range(20))
 
 
-@pytest.mark.parametrize("change, given", [(damaged, bytes(range(256)) * 4), (garbled, TEXT), (damaged, b""), (garbled, b"")])
+@pytest.mark.parametrize(
+    "change, given", [(damaged, bytes(range(256)) * 4), (garbled, TEXT), (damaged, b""), (garbled, b"")]
+)
 def test_bytes_and_texts(change, given):
     made = [change(np.random.default_rng(k), given) for k in range(200)]
     assert made == [change(np.random.default_rng(k), given) for k in range(200)]

@@ -16,9 +16,9 @@ import numpy as np
 from pipeline.contract.errors import LONGEST, BrakechainError
 from pipeline.contract.received import process
 
-#: read: as it should be; refused: one sentence; contained: one sentence about what the process of a reader stumbled over
-#: or did not survive. Failures: internal error; wrong numbers, or damage not noticed; rejected, although right; no answer
-#: in time; death of the process
+#: read: as it should be; refused: one sentence; contained: one sentence about what the process of a reader stumbled
+#: over or did not survive. Failures: internal error; wrong numbers, or damage not noticed; rejected, although right; no
+#: answer in time; death of the process
 GOOD, BAD = ("read", "refused", "contained"), ("internal", "wrong", "rejected", "hang", "crash")
 
 
@@ -127,7 +127,7 @@ _ANSWERED = process.answered
 
 
 def difference(value, expected, tolerance=1e-9, path=""):
-    """'' where plain values, mappings, lists and arrays are equal to a relative ``tolerance``; else where they differ."""
+    """'' where plain values, mappings, lists and arrays are equal to a ``tolerance``; else where they differ."""
     if isinstance(expected, dict):
         if not isinstance(value, dict) or set(value) != set(expected):
             return f"{path}: {sorted(value) if isinstance(value, dict) else value!r} for {sorted(expected)}"

@@ -1,4 +1,4 @@
-"""Inputs tried in a child of this process: what it does not survive, or is not done with in time, is known by number."""
+"""Inputs tried in a child of this process: what it does not survive, or does not end, is known by number."""
 
 import faulthandler
 import json
@@ -76,7 +76,7 @@ def _serve(target, seed, numbers, until, writer):
         import resource
 
         faulthandler.disable()
-        warnings.simplefilter("ignore")     # as a user sees them: tests make errors of them
+        warnings.simplefilter("ignore")  # as a user sees them: tests make errors of them
 
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))

@@ -114,3 +114,10 @@ def test_what_a_reader_says_does_not_fill_the_memory(tmp_path, monkeypatch):
     with pytest.raises(ConfigError, match="one that stops its reader") as error:
         apart.waveforms("audio", sound(tmp_path / "a.wav"))
     assert len(str(error.value)) < 1000
+
+
+def test_columns_of_any_kind_of_file(tmp_path):
+    savemat(tmp_path / "a.mat", {"x": SINE})
+    (tmp_path / "a.csv").write_text("x,y\n1,2\n3,4\n")
+    np.testing.assert_array_equal(apart.waveforms("columns", tmp_path / "a.mat")["x"].values, SINE)
+    assert apart.waveforms("columns", tmp_path / "a.csv")["y"].values.tolist() == [2.0, 4.0]

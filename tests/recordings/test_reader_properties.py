@@ -22,16 +22,30 @@ from tests.drawn import FEW
 
 FINITE = st.floats(-1e9, 1e9).map(lambda v: v if abs(v) > 1e-9 else 0.0)
 SAMPLES = st.lists(FINITE, min_size=2, max_size=40).map(np.array)
-GAPPED = st.lists(FINITE | st.just(np.nan), min_size=3, max_size=40).map(np.array).filter(lambda v: np.isfinite(v).any())
+GAPPED = (
+    st.lists(FINITE | st.just(np.nan), min_size=3, max_size=40).map(np.array).filter(lambda v: np.isfinite(v).any())
+)
 NAMES = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
 RATES = st.integers(1, 200_000).map(float)
-UNITS = st.sampled_from([("m", "displacement", 1.0), ("mm", "displacement", 1e-3), ("g", "acceleration", 9.80665),
-                         ("kN", "force", 1e3), ("Pa", "pressure", 1.0), ("bar", "pressure", 1e5)])
+UNITS = st.sampled_from(
+    [
+        ("m", "displacement", 1.0),
+        ("mm", "displacement", 1e-3),
+        ("g", "acceleration", 9.80665),
+        ("kN", "force", 1e3),
+        ("Pa", "pressure", 1.0),
+        ("bar", "pressure", 1e5),
+    ]
+)
 
 
 @FEW
-@given(st.dictionaries(NAMES.filter(lambda n: n not in ("time", "na", "nan", "none", "null")), GAPPED, min_size=1, max_size=3),
-       RATES)
+@given(
+    st.dictionaries(
+        NAMES.filter(lambda n: n not in ("time", "na", "nan", "none", "null")), GAPPED, min_size=1, max_size=3
+    ),
+    RATES,
+)
 def test_tables(tmp_path, columns, rate):
     size = min(map(len, columns.values()))
     made = {name: channel(np.r_[1.0, values[:size]], "1", "value", rate, 0.5, name) for name, values in columns.items()}
@@ -44,8 +58,12 @@ def test_tables(tmp_path, columns, rate):
 
 
 @FEW
-@given(st.dictionaries(NAMES, SAMPLES, min_size=1, max_size=4), st.sampled_from(["4", "5"]), st.booleans(),
-       st.sampled_from(["row", "column"]))
+@given(
+    st.dictionaries(NAMES, SAMPLES, min_size=1, max_size=4),
+    st.sampled_from(["4", "5"]),
+    st.booleans(),
+    st.sampled_from(["row", "column"]),
+)
 def test_matlab(tmp_path, variables, version, packed, shape):
     savemat(tmp_path / "a.mat", variables, format=version, do_compression=packed and version == "5", oned_as=shape)
     found = read_matlab(tmp_path / "a.mat")
@@ -58,15 +76,26 @@ def test_matlab(tmp_path, variables, version, packed, shape):
 @given(NAMES, GAPPED, UNITS, RATES, st.floats(-100, 100))
 def test_plain_hdf5(tmp_path, name, samples, unit, rate, begin):
     spelt, measures, size = unit
-    write_neutral(tmp_path / "a.h5", {"r": {"description": "", "repeat_of": "", "conditions": {}, "channels": {
-        name: (samples, spelt, measures, rate, begin)}}})
+    write_neutral(
+        tmp_path / "a.h5",
+        {
+            "r": {
+                "description": "",
+                "repeat_of": "",
+                "conditions": {},
+                "channels": {name: (samples, spelt, measures, rate, begin)},
+            }
+        },
+    )
     one = read_neutral(tmp_path / "a.h5")["r"].channels[name]
-    np.testing.assert_allclose(with_gaps(one), size * samples, rtol=1e-6)      # single precision
+    np.testing.assert_allclose(with_gaps(one), size * samples, rtol=1e-6)  # single precision
     assert (float(one.rate), float(one.begin)) == (rate, begin)
 
 
 @FEW
-@given(NAMES.filter(lambda name: name.strip("_") == name and "__" not in name and name != "none"), SAMPLES, UNITS, RATES)
+@given(
+    NAMES.filter(lambda name: name.strip("_") == name and "__" not in name and name != "none"), SAMPLES, UNITS, RATES
+)
 def test_universal_files(tmp_path, name, samples, unit, rate):
     made = channel(samples, *unit[:2], rate, 0.0, name)
     write_uff(tmp_path / "a.uff", Run(description="", repeat_of="", channels={name: made}))
@@ -76,7 +105,7 @@ def test_universal_files(tmp_path, name, samples, unit, rate):
 
 
 @FEW
-@given(st.lists(st.lists(st.integers(-2**23, 2**23 - 1), min_size=2, max_size=30), min_size=1, max_size=4), RATES)
+@given(st.lists(st.lists(st.integers(-(2**23), 2**23 - 1), min_size=2, max_size=30), min_size=1, max_size=4), RATES)
 def test_sound(tmp_path, columns, rate):
     size = min(map(len, columns))
     shares = [np.array(column[:size]) / 2**23 for column in columns]
@@ -94,7 +123,9 @@ def test_tdms(tmp_path, name, samples, rate):
 
     with TdmsWriter(str(tmp_path / "a.tdms")) as writer:
         for part in np.array_split(samples, 2):
-            writer.write_segment([ChannelObject("g", name, part, properties={"wf_increment": 1 / rate, "unit_string": "N"})])
+            writer.write_segment(
+                [ChannelObject("g", name, part, properties={"wf_increment": 1 / rate, "unit_string": "N"})]
+            )
     wave = read_tdms(tmp_path / "a.tdms")[f"g/{name}"]
     np.testing.assert_array_equal(wave.values, samples)
     assert wave.rate == pytest.approx(rate) and wave.unit == "N"
@@ -130,8 +161,8 @@ def test_any_cut_of_a_file_is_refused_or_a_beginning(tmp_path, variables, data):
             h5[name] = values
     content = bytearray((tmp_path / "whole.mat").read_bytes())
     head = b"MATLAB 7.3 MAT-file, Platform: any"
-    content[:len(head)] = head
-    (tmp_path / "cut.mat").write_bytes(content[:data.draw(st.integers(0, len(content)))])
+    content[: len(head)] = head
+    (tmp_path / "cut.mat").write_bytes(content[: data.draw(st.integers(0, len(content)))])
     try:
         found = read_matlab(tmp_path / "cut.mat")
     except ConfigError as error:

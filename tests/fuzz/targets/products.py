@@ -18,10 +18,21 @@ from tests.fuzz.mutation import damaged, draw, garbled
 from tests.fuzz.targets.vectors import _attribute, _lost, _renamed, _replaced
 from tests.fuzz.trial import Target, Trial, difference
 
-_VALUES = {"time": np.linspace(0, 1, 6), "signal": np.arange(12.0).reshape(2, 6), "root": np.array([1 + 2j, -3j]),
-           "flag": np.array([0, 1]), "scale": 3.5}
-_PROVENANCE = {"stage": "source", "companions": "{}", "fingerprint": "{}", "settings": "{}", "packages": '{"numpy": "2"}',
-               "kernels": "[]"}
+_VALUES = {
+    "time": np.linspace(0, 1, 6),
+    "signal": np.arange(12.0).reshape(2, 6),
+    "root": np.array([1 + 2j, -3j]),
+    "flag": np.array([0, 1]),
+    "scale": 3.5,
+}
+_PROVENANCE = {
+    "stage": "source",
+    "companions": "{}",
+    "fingerprint": "{}",
+    "settings": "{}",
+    "packages": '{"numpy": "2"}',
+    "kernels": "[]",
+}
 
 
 @cache
@@ -35,7 +46,7 @@ def _product():
 
 
 def _bare():
-    return _product()[:-checksum._BEHIND]
+    return _product()[: -checksum._BEHIND]
 
 
 def _sealed(content):
@@ -95,8 +106,25 @@ def _note(rng, h5, node):
     """An attribute of identity or provenance of another type or content."""
     name = draw(rng, ("product", "version", "content", "companions", "fingerprint", "units", "long_name", "settings"))
     home = h5 if name in ("product", "version", "content") else h5.get("provenance", h5)
-    home.attrs[name] = draw(rng, ("", "{", "[1]", '{"a": 1}', '{"../x": "0"}', 7, 1.5, np.arange(3), b"\xff", "source", "x" * 5000,
-                                  '{"fingerprint": []}', "[" * 3000, "nan"))
+    home.attrs[name] = draw(
+        rng,
+        (
+            "",
+            "{",
+            "[1]",
+            '{"a": 1}',
+            '{"../x": "0"}',
+            7,
+            1.5,
+            np.arange(3),
+            b"\xff",
+            "source",
+            "x" * 5000,
+            '{"fingerprint": []}',
+            "[" * 3000,
+            "nan",
+        ),
+    )
 
 
 def _listed(path):
@@ -114,15 +142,28 @@ def _listed(path):
 def _list_damaged(rng):
     entries = {"source.h5": [len(_product()), 1, 2, ""], "a.csv": [3, 4, 5, "0" * 64]}
     content = json.dumps(reshaped(rng, entries), default=str).encode()
-    return Trial(seen.LIST, garbled(rng, content) if rng.random() < 0.5 else content,
-                 check=lambda value: "" if value[0] == "" and value[1] else f"{value}", must="read")
+    return Trial(
+        seen.LIST,
+        garbled(rng, content) if rng.random() < 0.5 else content,
+        check=lambda value: "" if value[0] == "" and value[1] else f"{value}",
+        must="read",
+    )
 
 
 def _shown(rng):
-    return Trial("source.h5", _product(), "product as it was written", must="read", check=lambda text: "" if (
-        "source version 1" in text and "label (channel: 2)" in text and "0 .. 11 Pa" in text) else text)
+    return Trial(
+        "source.h5",
+        _product(),
+        "product as it was written",
+        must="read",
+        check=lambda text: (
+            "" if ("source version 1" in text and "label (channel: 2)" in text and "0 .. 11 Pa" in text) else text
+        ),
+    )
 
 
-TARGETS = (Target("product", _read, lambda rng: draw(rng, (_unsealed, _edited))(rng), (_whole, _unsealed)),
-           Target("inspect", _described, lambda rng: draw(rng, (_unsealed, _resealed, _edited))(rng), (_shown,), True),
-           Target("run list", _listed, _list_damaged))
+TARGETS = (
+    Target("product", _read, lambda rng: draw(rng, (_unsealed, _edited))(rng), (_whole, _unsealed)),
+    Target("inspect", _described, lambda rng: draw(rng, (_unsealed, _resealed, _edited))(rng), (_shown,), True),
+    Target("run list", _listed, _list_damaged),
+)

@@ -35,7 +35,9 @@ def _files(sealed):
             solving.solve(made, InProcess())
             if sealed:
                 score(made, key)
-            return {str(path.relative_to(made)): path.read_bytes() for path in sorted(made.rglob("*")) if path.is_file()}
+            return {
+                str(path.relative_to(made)): path.read_bytes() for path in sorted(made.rglob("*")) if path.is_file()
+            }
     finally:
         solving.answered = answered
 
@@ -66,7 +68,7 @@ def _changed(rng, name, sealed):
     values = yaml.safe_load(content) if name.endswith(".yaml") else json.loads(content)
     values = reshaped(rng, values)
     try:
-        return json.dumps(values).encode()      # which is YAML too
+        return json.dumps(values).encode()  # which is YAML too
     except TypeError:
         return repr(values).encode("utf-8", "replace")
 
@@ -92,7 +94,7 @@ def _verify_value(rng):
 
 
 def _leaves(node):
-    for key in (list(node) if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ()):
+    for key in list(node) if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ():
         if isinstance(node[key], dict | list):
             yield from _leaves(node[key])
         else:
@@ -100,9 +102,17 @@ def _leaves(node):
 
 
 def _verify_whole(rng):
-    return Trial("file", _files(True)["truth.json"], "set as it was published", {"name": "truth.json"},
-                 lambda value: "" if len(value) == 6 else str(value), "read")
+    return Trial(
+        "file",
+        _files(True)["truth.json"],
+        "set as it was published",
+        {"name": "truth.json"},
+        lambda value: "" if len(value) == 6 else str(value),
+        "read",
+    )
 
 
-TARGETS = (Target("verify set", _verified, _verify_damaged, (_verify_whole, _verify_value, _verify_value)),
-           Target("score set", _scored, _score_damaged))
+TARGETS = (
+    Target("verify set", _verified, _verify_damaged, (_verify_whole, _verify_value, _verify_value)),
+    Target("score set", _scored, _score_damaged),
+)

@@ -87,3 +87,21 @@ def test_coincident_nodes_parts_and_inverted_elements_are_refused(tmp_path):
     with pytest.raises(ConfigError, match="positive Jacobians.*element 0.*order of its vertices"):
         mirrored = type(mesh)(mesh.node * (1, 1, -1), mesh.element, mesh.kind, mesh.cell)
         read_mesh(written(tmp_path / "turned.vtu", mirrored))
+
+
+@pytest.mark.parametrize("vertex", [-1, 20, 10**9])
+def test_elements_of_nodes_that_are_not_there_are_refused(tmp_path, vertex):
+    """meshio passes them on, and -1 would be the last node."""
+    mesh = block(*[np.linspace(0, 0.1, 2)] * 3, kind="hexahedron20")
+    element = mesh.element.copy()
+    element[0, 3] = vertex
+    meshio.Mesh(mesh.node, [("hexahedron20", element)]).write(tmp_path / "a.vtu")
+    with pytest.raises(ConfigError, match=f"expected elements of its 20 nodes, found a vertex at row {vertex}"):
+        read_mesh(tmp_path / "a.vtu")
+
+
+@pytest.mark.parametrize("name", ["a.med", "a.xdmf", "a.cgns", "a.e", "a"])
+def test_formats_that_take_data_from_other_files_are_refused(tmp_path, name):
+    (tmp_path / name).write_bytes(b"x")
+    with pytest.raises(ConfigError, match=r"expected one of \.inp, \.msh, \.vtu"):
+        read_mesh(tmp_path / name)
