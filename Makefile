@@ -8,6 +8,7 @@ ROUNDING ?= tests/physics tests/systems tests/stages tests/inference tests/diagn
 PRACTICE ?= data/runs/trial_practice
 SEALED ?= data/trial/sealed_3
 SEED   ?= 1
+SECONDS ?= 600
 AGAIN ?= data/runs/trial_again
 STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report convergence limit_cycle probability sensitivities countermeasures interface_law friction_descriptions pin_on_disc transient lock_in lumped matrices matrix_modes rupture beam_on_beam motion_scatter beam_geometry recording noise_events orders response_functions modal_test model_update bench diagnosis line_evidence noise_matrix friction_update
 
@@ -17,7 +18,7 @@ TESTED := .venv/.tested
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -60,6 +61,9 @@ test-study: $(TESTED)  ## long diagnoses: every kind of case, samples of the stu
 
 bench: $(TESTED)  ## benchmarks: wall and CPU seconds of kernels, other codes, stages, diagnoses; ARGS="--compare COMMIT" adds an earlier run
 	$(BIN)/python -m tests.benchmarks $(ARGS)
+
+fuzz: $(TESTED)  ## damaged files to every reader, cases, quantities and products, for SECONDS (600); failures are kept as tests
+	$(BIN)/python -m tests.fuzz --seconds $(SECONDS) --seed $(SEED) $(ARGS)
 
 trial: $(READY)  ## open practice trial: make, solve and score, up to half an hour on two cores; resumes
 	@test -e $(PRACTICE)/set.yaml || $(BIN)/brakechain trial make $(PRACTICE) --cases 48 --seed 1 --systems forced_rig,coarse_rig

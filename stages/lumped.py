@@ -32,7 +32,7 @@ from pipeline.contract import ConfigError, Context, Quantities, Section, option,
 from pipeline.physics.contact.static_forces import static_forces
 from pipeline.physics.signals import input_histories
 from pipeline.products import Lumped
-from pipeline.recordings.columns import read_columns
+from pipeline.recordings.apart import waveforms
 from pipeline.systems import lumped as system
 
 #: samples, joined by lines, that a period needs to keep its size within 2 %
@@ -189,7 +189,7 @@ def _shape(history, time, where):
         return input_histories.chirp(time, history.first, history.last, history.sweep)
     if isinstance(history, Step):
         return input_histories.step(time, history.begin, history.rise)
-    table = read_columns(history.file)
+    table = {name: waveform.values for name, waveform in waveforms("columns", history.file).items()}
     values = _column(table, history.column, f"{where}.column")
     instants = history.interval * np.arange(len(values))
     if history.time is not None:

@@ -112,15 +112,17 @@ def verify(folder):
 def show(folder, markdown):
     """Write the page of a scored SET, trial.html."""
     from pipeline.blind_trial.metrics.summary import as_markdown
-    from pipeline.blind_trial.protocol.case_set import TrialSet
+    from pipeline.blind_trial.protocol.case_set import TrialSet, in_format
     from pipeline.contract.store import write_companion
     from pipeline.views.pages.trial import page
 
     result = TrialSet(folder).read("result.json")
+    with in_format(folder):
+        shown = as_markdown(result) if markdown else page(result)
     if markdown:
-        click.echo(as_markdown(result))
+        click.echo(shown)
         return
-    write_companion(folder / "trial.html", page(result))
+    write_companion(folder / "trial.html", shown)
     click.echo(f"page: {folder / 'trial.html'}")
 
 

@@ -9,6 +9,7 @@ and read from ``{thickness: 7 mm}`` or, with its origin, from
 ``{thickness: {value: 7 mm, origin: stated, source: "Table 1"}}``.
 """
 
+import json
 import os
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -116,7 +117,7 @@ def stored(section):
 
 def restored(cls, text):
     """The section that ``stored`` wrote."""
-    return cls.model_validate_json(text, context={"stored": True})
+    return cls.model_validate(json.loads(text), context={"stored": True})
 
 
 def _in_si(value, unit, info):

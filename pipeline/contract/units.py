@@ -39,14 +39,17 @@ _PARTS = ((re.compile(r"(?<![A-Za-z])([kM]?N)(m{1,2})(?![A-Za-z])"), r"(\1 \2)")
           (re.compile(r"\b([mu]?m)/s2\b"), r"\1/s^2"))
 #: a temperature as it is read; 0 degC in K
 _CELSIUS, _ZERO_CELSIUS = ("degC", "°C"), 273.15
-_LEVEL = re.compile(r"dB\s+re\s+(?P<value>(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)\s*(?P<unit>.+)", re.IGNORECASE)
+_UNSIGNED = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
+_LEVEL = re.compile(rf"dB\s+re\s+(?P<value>{_UNSIGNED})\s*(?P<unit>.+)", re.IGNORECASE)
 
 #: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
 TURNED = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2", "N": "N m", "N/m": "N m/rad", "N s/m": "N m s/rad",
           "kg": "kg m^2"}
 
 _ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
-_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
+_NUMBER = re.compile(rf"\s*[-+]?{_UNSIGNED}\s*(?P<unit>.*)")
+#: what pint stumbles over in texts that are no quantity, beside its own errors
+_STUMBLES = (ArithmeticError, AssertionError, AttributeError, TypeError, ValueError, tokenize.TokenError)
 #: numbers that belong to a unit, as in mm^2, s**-1, kg^(-0.5) and 1/s; any other one beside it is a mistake
 _OF_UNIT = re.compile(r"(\^|\*\*)\s*\(?\s*[-+]?\d+(\.\d+)?(\s*/\s*\d+)?\s*\)?|(?<![\w.])1\s*/")
 _STRAY = re.compile(r"[,±]|(?<![A-Za-z_\d.])\d")
@@ -88,9 +91,8 @@ def to_si(value, unit, where):
     number, written = value.removesuffix(spelt["unit"]), as_written(spelt["unit"])
     if written:
         written = _of_grammar(written, where, expected, value)
-    if unit == "K" and written in _CELSIUS:
-        return float(number) + _ZERO_CELSIUS
-    result = _plainly(number, written, unit)
+    celsius = unit == "K" and written in _CELSIUS
+    result = float(number) + _ZERO_CELSIUS if celsius else _plainly(number, written, unit)
     if result is None:
         result = _convert(f"{number}{written}", unit, lambda: ConfigError(where, expected, repr(value)))
     if not math.isfinite(result):
@@ -175,7 +177,7 @@ def in_si(values, unit, where, measures=""):
             name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
             name = "rad/s^2" if name is None and quantity.is_compatible_with("1/s^2") else name
         converted = quantity.to_base_units() if name is None else quantity.to("" if name == "1" else name)
-    except (pint.PintError, ValueError, TypeError, AttributeError, tokenize.TokenError):
+    except (pint.PintError, *_STUMBLES):
         raise ConfigError(where, "a unit such as mm/s or kN", repr(unit)) from None
     name = name or f"{converted.units:~C}"
     if wanted and name not in wanted:
@@ -218,7 +220,7 @@ def _convert(text, unit, refusal):
         if _mixes_turns(quantity, unit):
             raise refusal()
         return float(quantity.to("dimensionless" if unit == "1" else _for_pint(unit)).magnitude)
-    except (pint.PintError, ArithmeticError, ValueError, TypeError, AttributeError, tokenize.TokenError):
+    except (pint.PintError, *_STUMBLES):
         raise refusal() from None
 
 

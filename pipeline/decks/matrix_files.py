@@ -12,7 +12,7 @@ import scipy
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.entries import Entries, sound
 from pipeline.decks.labelled_matrices import abaqus, nastran
-from pipeline.recordings import apart
+from pipeline.recordings.apart import answered
 
 _READERS = "a .mat (up to version 7), .mtx, .mtx.gz or .npz file, an .mtx of Abaqus, or a .pch with DMIG of Nastran"
 _MARKET = b"%%MatrixMarket"
@@ -24,7 +24,7 @@ def read(path, variable=None):
 
     Raises ConfigError for a file that is damaged or holds no matrix, several, or one that is not square, real, finite.
     """
-    return apart.answered("pipeline.decks.matrix_files:leave", path, _collected, variable=variable)
+    return answered("pipeline.decks.matrix_files:leave", path, _collected, variable=variable)
 
 
 def leave(path, folder, variable=None):

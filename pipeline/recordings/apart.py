@@ -1,46 +1,31 @@
-"""Readers in a process of their own: what a damaged file does to a library ends there.
-
-A file that came from elsewhere may crash the library that reads it, keep it busy for ever or ask for all memory. The
-child has limits of time and memory, and answers with arrays, or with a product, in a folder that the parent reads.
-"""
+"""Readers of recordings in a process of their own, which answers with arrays, or with a product."""
 
 import json
-import subprocess
-import sys
-from importlib import import_module
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from pipeline.contract import store
-from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.mapped import blocks, map_of, mapped, opened
-from pipeline.environment import of_children
+from pipeline.contract.received.process import answered
 from pipeline.products import Recording, Run
 from pipeline.recordings.audio import read_audio
-from pipeline.recordings.columns import read_matlab
+from pipeline.recordings.columns import read_columns, read_matlab
 from pipeline.recordings.mdf import read_mdf
 from pipeline.recordings.neutral import read_neutral
 from pipeline.recordings.tdms import read_tdms
 from pipeline.recordings.uff import read_uff
 from pipeline.recordings.waveform import Waveform
 
-#: seconds of processor that a reader has: so many, and one for so many bytes
-_SECONDS, _BYTES_A_SECOND = 15, 5_000_000
-#: bytes of memory that it has: so many, and so many for each of the file
-_MEMORY, _MEMORY_A_BYTE = 3_000_000_000, 24
-#: wall clock over time of the processor before a reader is stopped that waits, on a machine that does other work too
-_PATIENCE = 10
-_ERROR, _COLUMNS, _RUNS, _SAID = "error.json", "columns.json", "runs.h5", "said.txt"
+_COLUMNS, _RUNS, _LEAVE = "columns.json", "runs.h5", "pipeline.recordings.apart:leave"
 
 
 def waveforms(kind, path):
-    """{name: Waveform} of the file at ``path`` of this ``kind``: matlab, audio, tdms or mdf.
+    """{name: Waveform} of the file at ``path`` of this ``kind``: matlab, columns, audio, tdms or mdf.
 
     Raises ConfigError as its reader does, and for a file that its reader does not survive or is not done with in time.
     """
-    return _child(kind, path, {}, _columns_of)
+    return answered(_LEAVE, path, _columns_of, kind=kind)
 
 
 def runs(kind, path, **given):
@@ -48,59 +33,13 @@ def runs(kind, path, **given):
 
     Errors as of ``waveforms``.
     """
-    return _child(kind, path, given, lambda folder: store.read(Recording, folder / _RUNS).runs)
+    return answered(_LEAVE, path, lambda folder: store.read(Recording, folder / _RUNS).runs, kind=kind, **given)
 
 
-def answered(reader, path, collect, **given):
-    """``collect(folder)`` of what the function ``reader``, "module:function", has left of the file at ``path``.
-
-    It is called with the path, the folder and ``given``. Errors as of ``waveforms``.
-    """
-    return _child(reader, path, given, collect)
-
-
-def _child(kind, path, given, collect):
-    """``collect(folder)`` of what the reader has left in its folder."""
-    path = Path(path)
-    if not path.is_file():
-        raise ConfigError(path, "a regular file", "none" if not path.exists() else "another kind of file")
-    size = path.stat().st_size
-    seconds = _SECONDS + size // _BYTES_A_SECOND
-    variables = of_children()
-    with TemporaryDirectory(prefix="brakechain-") as folder:
-        arguments = [kind, str(path.absolute()), folder, str(seconds), str(_MEMORY + _MEMORY_A_BYTE * size)]
-        try:
-            with (Path(folder) / _SAID).open("wb") as said:
-                child = subprocess.run([sys.executable, "-P", "-m", "pipeline.recordings.apart", *arguments],
-                                       input=json.dumps(given).encode(), stdout=subprocess.DEVNULL, stderr=said,
-                                       env=variables, timeout=_PATIENCE * seconds)
-        except subprocess.TimeoutExpired:
-            raise ConfigError(path, f"a file that is read within {seconds} s", "a reader that is not done",
-                              "the file is damaged, or too large: copy it again, or cut it") from None
-        return _answer(child, path, Path(folder), seconds, collect)
-
-
-def _answer(child, path, folder, seconds, collect):
-    told = folder / _ERROR
-    if told.exists():
-        raise ConfigError(*json.loads(told.read_text()))
-    if child.returncode < 0 and -child.returncode == _OUT_OF_TIME:
-        raise ConfigError(path, f"a file that is read within {seconds} s", "a reader that is not done",
-                          "the file is damaged: copy it again")
-    if child.returncode:
-        with (folder / _SAID).open("rb") as said:
-            said.seek(max((folder / _SAID).stat().st_size - 2000, 0))
-            lines = said.read().decode(errors="replace").strip().splitlines()
-        reason = (lines or [f"exit code {child.returncode}"])[-1][:200]
-        raise ConfigError(path, "an undamaged file", f"one that stops its reader ({reason})", "copy it again")
-    try:
-        return collect(folder)
-    except (OSError, ProductError, ValueError) as error:
-        raise ConfigError(path, "an undamaged file", f"one whose reader leaves nothing ({error})"[:300]) from None
-
-
-#: signal that ends a process whose time of the processor is over (SIGXCPU)
-_OUT_OF_TIME = 24
+def leave(path, folder, kind, **given):
+    """In the child process: read the file and leave its content in ``folder``."""
+    reader, left = _READERS[kind]
+    left(reader(path, folder, **given), Path(folder))
 
 
 def _columns_of(folder):
@@ -134,8 +73,8 @@ def _leave_runs(found, folder):
     store.write(Recording(source=[], runs=found), folder / _RUNS, {})
 
 
-def _matlab(path, _):
-    return {name: Waveform(values) for name, values in read_matlab(path).items()}
+def _vectors(read):
+    return lambda path, _: {name: Waveform(values) for name, values in read(path).items()}
 
 
 def _universal(path, _, units=None):
@@ -144,46 +83,7 @@ def _universal(path, _, units=None):
 
 
 #: kind of file -> (reader of a path and the folder for what is long, what leaves its answer)
-_READERS = {"matlab": (_matlab, _leave_columns), "audio": (read_audio, _leave_columns),
-            "tdms": (read_tdms, _leave_columns), "mdf": (read_mdf, _leave_columns),
-            "hdf5": (lambda path, _: read_neutral(path), _leave_runs), "uff": (_universal, _leave_runs)}
-
-
-def _limit(seconds, memory):
-    """Limit this process, where the system can."""
-    try:
-        import resource
-    except ImportError:
-        return
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-    for kind in (resource.RLIMIT_AS, resource.RLIMIT_FSIZE):
-        hard = resource.getrlimit(kind)[1]
-        resource.setrlimit(kind, (memory if hard == resource.RLIM_INFINITY else min(memory, hard), hard))
-
-
-def main(kind, path, folder, seconds, memory):
-    """Child process: read, and leave the answer or the error in ``folder``."""
-    _limit(int(seconds), int(memory))
-    try:
-        if kind in _READERS:
-            reader, leave = _READERS[kind]
-            leave(reader(path, folder, **json.load(sys.stdin)), Path(folder))
-        else:
-            module, _, function = kind.partition(":")
-            getattr(import_module(module), function)(path, folder, **json.load(sys.stdin))
-    except BrakechainError as error:
-        _tell(folder, str(error.where), error.expected, error.found, error.remedy)
-    except MemoryError:
-        _tell(folder, path, f"a file that is read within {int(memory) / 1e9:.3g} GB", "one that needs more",
-              "the file is damaged, or too large: copy it again, or cut it")
-    except Exception as error:  # whatever a reader stumbles over is the file's doing
-        _tell(folder, path, "an undamaged file", f"{type(error).__name__}: {error}"[:300], "copy it again")
-
-
-def _tell(folder, *parts):
-    (Path(folder) / _ERROR).write_text(json.dumps(parts))
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+_READERS = {"matlab": (_vectors(read_matlab), _leave_columns), "columns": (_vectors(read_columns), _leave_columns),
+            "audio": (read_audio, _leave_columns), "tdms": (read_tdms, _leave_columns),
+            "mdf": (read_mdf, _leave_columns), "hdf5": (lambda path, _: read_neutral(path), _leave_runs),
+            "uff": (_universal, _leave_runs)}

@@ -157,9 +157,10 @@ def read_table(path, delimiter=None, skip=0):
 
 
 def _shorter(lines):
-    """Whether a file that ends within a line ends with a number shorter than all others of its column."""
-    last = len(re.split(r"[\t;, ]+", lines[-1].strip())[-1])
-    return last < min(len(re.split(r"[\t;, ]+", line.strip())[-1]) for line in lines[1:-1])
+    """Whether a file that ends within a line ends with a number of fewer digits in all, or fewer decimals, than all
+    others of its column."""
+    ends = [re.split(r"[\t;, ]+", line.strip())[-1].lstrip("+-") for line in lines[1:]]
+    return any(size(ends[-1]) < min(map(size, ends[:-1])) for size in (len, lambda end: len(end.partition(".")[2])))
 
 
 def write_table(path, channels):

@@ -5,7 +5,7 @@ from typing import Literal
 import pytest
 
 from pipeline.contract import ConfigError, InputFile, NamedFile, Quantities, Quantity, Section, option
-from pipeline.contract.settings import fill, leaves, without_origins
+from pipeline.contract.settings import fill, leaves, restored, stored, without_origins
 
 
 class Ring(Section):
@@ -113,3 +113,9 @@ def test_null_stands_for_the_default_of_what_holds_many():
     assert fill(Holding, {"many": [], "named": {}}, "x").many == ()
     with pytest.raises(ConfigError, match="number"):
         fill(Holding, {"number": None}, "x")
+
+
+def test_a_section_that_names_a_file_comes_back_from_what_it_is_stored_as(tmp_path):
+    (tmp_path / "a.dat").write_text("1")
+    section = fill(Settings, {"scan": str(tmp_path / "a.dat"), "pressures": ["3 bar"]}, "c.yaml: s")
+    assert restored(Settings, stored(section)) == section

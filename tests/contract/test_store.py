@@ -137,3 +137,13 @@ def test_an_interrupted_write_leaves_the_old_product(written, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         store.write(Source(**{**GOOD, "scale": 3.0}), written, {})
     assert written.read_bytes() == before
+
+
+def test_a_product_that_was_damaged_and_sealed_again_ends_with_the_process_that_shows_it(written, monkeypatch):
+    """Its checksum is right; what HDF5 does not survive is one sentence, and so is what it stumbles over."""
+    content = written.read_bytes()
+    where = content.index(b"TREE")
+    written.write_bytes(content[:where] + bytes(64) + content[where + 64:len(content) - checksum._BEHIND])
+    checksum.seal(written)
+    with pytest.raises(ProductError, match="truncated or damaged|stops its reader"):
+        describe(written)

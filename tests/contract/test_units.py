@@ -108,3 +108,10 @@ def test_units_are_read_as_people_write_them(written, unit, factor):
 def test_parts_of_a_quotient_keep_their_names(unit, factor, name):
     """An accelerance is no inverse mass to its reader."""
     assert quotient_in_si(3.0, unit, "here") == (pytest.approx(3 * factor), name)
+
+
+@pytest.mark.parametrize("text, unit", [("1e400 degC", "K"), ("1e400 °C", "K"), ("１２ mm", "m"), ("12 m²０", "m^2"),
+                                        ("１２degrees", "rad"), ("3 N^0", "N")])
+def test_what_is_not_finite_or_of_other_digits_is_refused(text, unit):
+    with pytest.raises(ConfigError, match="expected a quantity in"):
+        to_si(text, unit, "x")

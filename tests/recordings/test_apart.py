@@ -9,6 +9,7 @@ import pytest
 from scipy.io import savemat
 
 from pipeline.contract import ConfigError
+from pipeline.contract.received import process
 from pipeline.recordings import apart
 from tests.recordings import test_neutral, test_uff
 from tests.recordings.files_of_others import SINE, mdf, sound, tdms
@@ -46,7 +47,7 @@ def test_what_a_reader_does_not_survive_is_one_sentence(tmp_path, monkeypatch, c
                                                f"def read(path, folder):\n    {code}\n"
                                                "a.read_audio = read\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(apart, "_SECONDS", 1)
+    monkeypatch.setattr(process, "_SECONDS", 1)
     with pytest.raises(ConfigError, match=told):
         apart.waveforms("audio", sound(tmp_path / "a.wav"))
 
@@ -113,3 +114,10 @@ def test_what_a_reader_says_does_not_fill_the_memory(tmp_path, monkeypatch):
     with pytest.raises(ConfigError, match="one that stops its reader") as error:
         apart.waveforms("audio", sound(tmp_path / "a.wav"))
     assert len(str(error.value)) < 1000
+
+
+def test_columns_of_any_kind_of_file(tmp_path):
+    savemat(tmp_path / "a.mat", {"x": SINE})
+    (tmp_path / "a.csv").write_text("x,y\n1,2\n3,4\n")
+    np.testing.assert_array_equal(apart.waveforms("columns", tmp_path / "a.mat")["x"].values, SINE)
+    assert apart.waveforms("columns", tmp_path / "a.csv")["y"].values.tolist() == [2.0, 4.0]

@@ -144,3 +144,16 @@ def test_a_table_that_is_written_is_read(tmp_path):
     np.testing.assert_allclose(found["time"], [0.5, 0.6, 0.7])
     with pytest.raises(ConfigError, match="one rate, begin and length"):
         write_table(tmp_path / "b.csv", made | {"d": channel([1.0], "N", "force", 1.0, 0.0, "d")})
+
+
+@pytest.mark.parametrize("rows, cut, refused", [
+    ("-0.25 0.50 -0.75", 1, True), ("0.25 -0.50 0.75", 2, True), ("0.25 10.50 100.75", 1, True),
+    ("1.5 22.25 3.125", 1, False)])
+def test_a_table_cut_off_within_its_last_number(tmp_path, rows, cut, refused):
+    """It has fewer digits, or fewer decimals, than all others of its column; where those differ, nothing tells."""
+    (tmp_path / "a.csv").write_text("x\n" + "\n".join(rows.split())[:-cut])
+    if refused:
+        with pytest.raises(ConfigError, match="the file is cut off"):
+            read_table(tmp_path / "a.csv")
+    else:
+        assert read_table(tmp_path / "a.csv")["x"][-1] == 3.12

@@ -59,3 +59,20 @@ def test_gaps_and_begin_are_kept(tmp_path):
     save([gapped], tmp_path / "a.h5")
     (one,) = read_neutral(tmp_path / "a.h5")["run"].channels.values()
     assert one.missing.tolist() == [[1, 2]] and float(one.begin) == 1.5
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"data": "text"}, "pad: data: expected numbers, found"), ({"data": None}, "found no data"),
+    ({"data": [[1.0]]}, r"data: expected numbers \(sample,\), found 2"), ({"fs": "fast"}, "fs: expected numbers"),
+    ({"fs": [1.0]}, "fs: expected one number"), ({"unit_str": 3}, "unit_str: expected a text, found int"),
+    ({"quantity": {}}, "quantity: expected a text, found dict"), ({"name": ["a"]}, "name: expected a text"),
+    ({"name": "../a"}, "expected a name of letters"), ({"time": [{}, 1]}, "time: expected numbers")])
+def test_signals_of_other_types_are_refused(change, message):
+    with pytest.raises(ConfigError, match=message):
+        run_of([SIGNALS[0] | change])
+
+
+@pytest.mark.parametrize("signals", [{"name": "a"}, ["a"], 3, None])
+def test_what_is_no_list_of_signals_is_refused(signals):
+    with pytest.raises(ConfigError, match="signals: expected a list of dictionaries"):
+        run_of(signals)

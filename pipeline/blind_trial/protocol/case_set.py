@@ -12,10 +12,11 @@ Of these only ``cases`` and a truth are needed; set.yaml is written by ``make`` 
 
 import hashlib
 import json
+from contextlib import contextmanager
 from pathlib import Path
 
 from pipeline.contract import documents
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.received import files, names
 from pipeline.contract.store import write_companion
 
@@ -88,6 +89,19 @@ class TrialSet:
         text = documents.yaml_text(values) if name.endswith(".yaml") else json.dumps(values, indent=1) + "\n"
         self.path(name).parent.mkdir(parents=True, exist_ok=True)
         write_companion(self.path(name), text)
+
+
+@contextmanager
+def in_format(folder):
+    """What the files of a set that others made lack, or hold otherwise than docs/trial_sets.md says, as ConfigError."""
+    try:
+        yield
+    except (BrakechainError, OSError):
+        raise
+    except Exception as error:  # whatever their values lead to
+        raise ConfigError(folder, "files of a set as docs/trial_sets.md describes them",
+                          f"others ({type(error).__name__}: {error})", "correct the files, or solve and score the set"
+                          " again") from error
 
 
 def read_json(path):

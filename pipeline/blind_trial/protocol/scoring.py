@@ -4,7 +4,7 @@ from datetime import UTC, datetime
 
 from pipeline.blind_trial.metrics.result import result
 from pipeline.blind_trial.protocol import code_digest, sealing
-from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, checked_truth, sha256
+from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, checked_truth, in_format, sha256
 from pipeline.blind_trial.protocol.solving import METHODS, check_cases, check_code, digest_of_case
 from pipeline.blind_trial.protocol.truth_format import check_truth
 from pipeline.contract.errors import ConfigError
@@ -16,7 +16,11 @@ def score(folder, key_file=None, truth_file=None):
     Refused: a set that is not solved, no key, a truth that does not match its commitment, changed code, answers or
     cases, and a sealed set that was scored before.
     """
-    trial = TrialSet(folder)
+    with in_format(folder):
+        return _scored(TrialSet(folder), key_file, truth_file)
+
+
+def _scored(trial, key_file, truth_file):
     answers = _answers(trial)
     opened, key = _opened(trial, key_file) if trial.sealed else (None, None)
     truth = checked_truth(opened["truth"], trial.folder / "truth.sealed") if opened else trial.truth(truth_file)

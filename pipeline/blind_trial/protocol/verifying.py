@@ -4,7 +4,7 @@ import json
 import math
 
 from pipeline.blind_trial.protocol import code_digest, sealing
-from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, sha256
+from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, in_format, sha256
 from pipeline.blind_trial.protocol.scoring import check_commitment, scored_as
 from pipeline.contract.errors import ConfigError
 
@@ -15,7 +15,11 @@ _AGREE = 1e-4
 
 def verify(folder):
     """Sentences of what was checked; ConfigError at the first thing that does not hold."""
-    trial = TrialSet(folder)
+    with in_format(folder):
+        return _verified(TrialSet(folder))
+
+
+def _verified(trial):
     if not trial.has("result.json"):
         raise ConfigError(trial.folder, "a set that was scored", "no result.json",
                           f"run: brakechain trial score {trial.folder}")

@@ -121,11 +121,13 @@ def schedule(file, modules=(), temperature_acts=False):
 def _file(path):
     """(ScheduleFile, origins) of a file."""
     document = read_yaml(path)
+    filled = fill(ScheduleFile, without_origins(document, str(path)), str(path))
+    modules = document.get("modules")
     origins = tuple((str(module.get("module", "")), key, str(value["value"]).strip("[]"), value.get("origin", ""),
                      value.get("source", ""))
-                    for module in document.get("modules") or () if isinstance(module, dict)
+                    for module in (modules if isinstance(modules, list) else ()) if isinstance(module, dict)
                     for key, value in module.items() if annotated(value))
-    return fill(ScheduleFile, without_origins(document, str(path)), str(path)), origins
+    return filled, origins
 
 
 def _order(condition):

@@ -1,12 +1,19 @@
-"""A scan as a section describes it: read, turned, without outliers, holes and form, in its true unit."""
+"""A scan as a section describes it: read, turned, without outliers, holes and form, in its true unit; and pictures.
+
+Files are read in a process of their own.
+"""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from pipeline.contract import ConfigError
+from pipeline.contract.received.process import answered
 from pipeline.physics.rough.plausible_scan import in_true_unit, refuse_holes
-from pipeline.physics.rough.topography import level, read_scan, remove_outliers
+from pipeline.physics.rough.topography import Scan, level, read_scan, remove_outliers
+
+_HELD = "held.npz"
 
 
 @dataclass(frozen=True)
@@ -24,7 +31,7 @@ def levelled(choice, where):
 
     ConfigError at ``where`` for unreadable files, mostly holes, or heights of an implausible size.
     """
-    scan = read_scan(choice.file)
+    scan = answered(f"{__name__}:leave_scan", choice.file, _scan)
     heights, spacing = (scan.heights.T, scan.spacing[::-1]) if choice.transposed else (scan.heights, scan.spacing)
     cleaned, outliers = remove_outliers(heights, choice.outlier_threshold)
     missing = np.isnan(cleaned)
@@ -32,12 +39,33 @@ def levelled(choice, where):
     return Levelled(in_true_unit(level(cleaned, spacing)[0], choice.height_unit, where), spacing, missing, outliers)
 
 
+def leave_scan(path, folder):
+    """In the child process: read a scan and leave it in ``folder``."""
+    scan = read_scan(path)
+    np.savez(Path(folder) / _HELD, heights=scan.heights, spacing=scan.spacing)
+
+
+def _scan(folder):
+    with np.load(folder / _HELD) as held:
+        return Scan(held["heights"], tuple(held["spacing"]))
+
+
 def grey_image(file, where):
     """Grey values (ny, nx) of a picture in any common format. ConfigError at ``where`` for what is no picture."""
+    return answered(f"{__name__}:leave_image", file, _image, where=where)
+
+
+def leave_image(file, folder, where):
+    """In the child process: read a picture and leave its grey values in ``folder``."""
     from PIL import Image
 
     try:
         with Image.open(file) as picture:
-            return np.asarray(picture.convert("L"), float)
+            np.savez(Path(folder) / _HELD, grey=np.asarray(picture.convert("L")))
     except (OSError, ValueError, SyntaxError) as error:
         raise ConfigError(where, "a picture, as PNG or TIFF", f"{file}: {error}", "save it in such a format") from error
+
+
+def _image(folder):
+    with np.load(folder / _HELD) as held:
+        return held["grey"].astype(float)

@@ -3,7 +3,7 @@
     unit    = ["1"] part { ("*" | "/" | " ") part }
     part    = name [power] | "(" unit ")" [power]
     power   = ("^" | "**") [sign] exponent, the exponent also in parentheses, or superscript digits
-    exponent = whole number up to 9, or 0.5, 1.5, ..., or a fraction such as 1/2
+    exponent = whole number from 1 to 9, or 0.5, 1.5, ..., or a fraction such as 1/2
 
 No number but 1 stands for itself, and powers of powers multiply to 9 at most: to evaluate such a text takes no time.
 """
@@ -16,9 +16,9 @@ LONGEST, _PARTS, _DEPTH = 120, 24, 6
 POWER = 9
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _RAISED = re.compile(r"[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-_NUMBER = r"[-+]?\s*(?:\d(?:\.[05])?|\.5)(?:\s*/\s*\d)?"
+_NUMBER = r"[-+]?\s*(?:[0-9](?:\.[05])?|\.5)(?:\s*/\s*[0-9])?"
 _TOKEN = re.compile(rf"\s*(?:(?P<power>(?:\^|\*\*)\s*(?:\(\s*(?P<inner>{_NUMBER})\s*\)|"
-                    r"(?P<bare>[-+]?(?:\d(?:\.[05])?|\.5))))(?![\w.])|(?P<name>[^\W\d]\w{0,39}|[%°]\w{0,39})|(?P<one>1)(?![\w.])|(?P<mark>[*/()·⋅]))")
+                    r"(?P<bare>[-+]?(?:[0-9](?:\.[05])?|\.5))))(?![\w.])|(?P<name>[^\W\d]\w{0,39}|[%°]\w{0,39})|(?P<one>1)(?![\w.])|(?P<mark>[*/()·⋅]))")
 
 
 class NoUnitError(ValueError):
@@ -57,8 +57,8 @@ def _tokens(text):
 def _size(power):
     """Absolute value of a power."""
     above, _, below = power.replace(" ", "").partition("/")
-    if below == "0":
-        raise NoUnitError("a power by 0")
+    if below == "0" or float(above) == 0.0:
+        raise NoUnitError("a power of 0, or by 0")
     return abs(float(above)) / float(below or 1)
 
 

@@ -1,16 +1,22 @@
 """Meshes of bodies from files that meshio reads, in declared units, with the checks that a body needs."""
 
+import json
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.process import answered
 from pipeline.physics.fem.mesh import Mesh, joined
 from pipeline.physics.fem.reference_cells import MIXED, by_kind, quadrature, reference_vertices, shape_functions
 
 #: system of units of a mesh -> its length in metres
 LENGTH = {"SI": 1.0, "mm-t-s": 1e-3, "mm-kg-ms": 1e-3}
+#: formats that meshio reads and that take no data from another file
+_FORMATS = (".inp", ".msh", ".vtu", ".vtk", ".bdf", ".nas", ".fem")
+_REMEDY = "check that the file is whole, or write it as Abaqus .inp, gmsh or VTU"
 _KINDS = ("hexahedron20", "hexahedron27", "tetra10", "wedge15")
 _LINEAR = ("hexahedron", "tetra", "wedge")
 #: smallest and largest extent [m] of a part of a brake
@@ -20,14 +26,21 @@ _SAME = 1e-7
 #: mid-side nodes lie within this share of an edge from its middle: at a quarter the element begins to fold
 _MIDDLE = 0.3
 _BATCH = 2048
+_MESH = "mesh.npz"
 
 
 def read_mesh(path, units="SI"):
     """(Mesh [m], groups, sentences on what was not taken) of a file that meshio reads, in one of the systems of LENGTH.
+    It is read in a process of its own.
 
     ``groups``: physical groups of gmsh, {name in capitals: rows of elements (k,), or nodes of faces (f, v)}. Raises
     ConfigError for an unreadable file, and as ``mesh_of``.
     """
+    return answered(f"{__name__}:leave", path, _mesh, units=units)
+
+
+def leave(path, folder, units):
+    """In the child process: read the mesh and leave it in ``folder``."""
     where, read = f"mesh file {path}", _read(path)
     mesh, used = mesh_of(where, read.points, [(b.type, b.data) for b in read.cells if b.dim == 3], units)
     groups = _groups(read, used)
@@ -37,7 +50,17 @@ def read_mesh(path, units="SI"):
     members = ((kind, [n for n in map(str, names) if n.upper() not in groups and not n.startswith("gmsh:")])
                for kind, names in named.items())
     left += [f"{kind} {', '.join(names)}" for kind, names in members if names]
-    return mesh, groups, (f"not read: {'; '.join(left)}",) if left else ()
+    np.savez(Path(folder) / _MESH, *groups.values(), node=mesh.node, element=mesh.element, cell=mesh.cell,
+             told=json.dumps({"kind": mesh.kind, "groups": list(groups), "left": left}))
+
+
+def _mesh(folder):
+    """What ``leave`` has left there."""
+    with np.load(folder / _MESH) as held:
+        told = json.loads(str(held["told"]))
+        return (Mesh(held["node"], held["element"], told["kind"], held["cell"]),
+                {name: held[f"arr_{k}"] for k, name in enumerate(told["groups"])},
+                (f"not read: {'; '.join(told['left'])}",) if told["left"] else ())
 
 
 def _groups(read, used):
@@ -71,7 +94,9 @@ def mesh_of(where, points, blocks, units, labels=None):
     Raises ConfigError for cells not served, a size that no part of a brake has, nodes that lie in one place,
     disconnected parts, mid-side nodes off their edges and elements turned inside out.
     """
-    kind, element = joined(_served(where, blocks))
+    blocks = _served(where, blocks)
+    _check_nodes(where, blocks, len(points))
+    kind, element = joined(blocks)
     used, compact = np.unique(element, return_inverse=True)
     node = np.asarray(points[used], float)
     _check_size(where, np.ptp(node, axis=0).max(), units)
@@ -105,14 +130,17 @@ def check(mesh, where, labels=None):
 def _read(path):
     import meshio
 
+    if Path(path).suffix.lower() not in _FORMATS:
+        raise ConfigError(f"mesh file {path}", f"one of {', '.join(_FORMATS)}", repr(Path(path).suffix), _REMEDY)
     try:
         return meshio.read(path)
     except (OSError, SystemExit, meshio.ReadError, ValueError) as error:
         reason = str(error) or "none"
-    except (IndexError, KeyError, TypeError, AttributeError, AssertionError) as error:
+    except MemoryError:
+        raise
+    except Exception as error:  # meshio passes on whatever its parsers stumble over
         reason = f"one that stops its reader ({type(error).__name__}: {error})"
-    raise ConfigError(f"mesh file {path}", "a mesh that meshio can read", reason,
-                      "check that the file is whole, or write it as Abaqus .inp, gmsh or VTU")
+    raise ConfigError(f"mesh file {path}", "a mesh that meshio can read", reason, _REMEDY)
 
 
 def _served(where, blocks):
@@ -127,6 +155,13 @@ def _served(where, blocks):
         raise ConfigError(where, f"cells out of {', '.join(_KINDS)} ({MIXED} without hexahedron27)",
                           ", ".join(sorted(kinds)) or "no solid cells", "mesh with quadratic hexahedra or tetrahedra")
     return blocks
+
+
+def _check_nodes(where, blocks, count):
+    strange = [node for _, cells in blocks for node in np.unique(cells) if not 0 <= node < count]
+    if strange:
+        raise ConfigError(where, f"elements of its {count} nodes", f"a vertex at row {strange[0]}",
+                          "the file is damaged, or lacks nodes: write it again")
 
 
 def _check_size(where, extent, units):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, read_json
-from pipeline.contract.errors import BrakechainError
+from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, in_format, read_json
+from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from tests.blind_trial.protocol.small_set import small_set
 
 
@@ -36,3 +36,11 @@ def test_another_format_and_unreadable_json_are_refused(tmp_path):
 
 def test_the_canonical_text_is_blind_to_the_order_of_keys():
     assert canonical({"b": 1, "a": [2.5]}) == canonical({"a": [2.5], "b": 1}) == b'{"a":[2.5],"b":1}'
+
+
+def test_what_values_of_others_lead_to_is_one_sentence(tmp_path):
+    with pytest.raises(ConfigError, match=r"expected files of a set as .* found others \(KeyError: 'answers'\)"), (
+            in_format(tmp_path)):
+        {}["answers"]  # noqa: B018
+    with pytest.raises(ProductError, match="as it is"), in_format(tmp_path):
+        raise ProductError("as it is")

@@ -134,8 +134,9 @@ def test_nothing_is_opened_where_the_score_fails(sealed_set, key, monkeypatch):
         raise KeyError("noise")
 
     monkeypatch.setattr(scoring, "result", failing)
-    with pytest.raises(KeyError):
+    with pytest.raises(BrakechainError, match="found others .KeyError: 'noise'.") as error:
         score(sealed_set, key)
+    assert isinstance(error.value.__cause__, KeyError)
     assert not (sealed_set / "truth.json").exists() and not (sealed_set / "opened.yaml").exists()
 
 

@@ -94,3 +94,12 @@ def test_an_open_set_has_nothing_to_hide_and_an_unscored_one_nothing_to_verify(t
 def test_results_differ_where_a_count_a_word_or_a_number_does(now, where):
     found = difference(now, {"a": {"count": 3, "low": 0.5}})
     assert found is None if where is None else re.search(where, found)
+
+
+@pytest.mark.parametrize("file, change", [
+    ("answers.json", lambda v: v.pop("answers")), ("answers.json", lambda v: v["answers"].update(diagnosis=3)),
+    ("truth.json", lambda v: v["001"].update(effects=7)), ("result.json", lambda v: v.update(errata=5))])
+def test_files_of_other_types_are_one_sentence(published, file, change):
+    spoilt(published / file, change)
+    with pytest.raises(BrakechainError, match="expected"):
+        verify(published)

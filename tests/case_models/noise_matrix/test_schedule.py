@@ -6,7 +6,7 @@ import pytest
 from pipeline.case_models.noise_matrix import schedule as of
 from pipeline.case_models.noise_matrix.schedule import Module, NamedSchedule, schedule
 from pipeline.contract import ConfigError, Section, option
-from pipeline.contract.documents import read_yaml
+from pipeline.contract.documents import read_yaml, yaml_text
 from pipeline.contract.settings import ORIGINS, fill
 
 
@@ -95,3 +95,17 @@ def test_a_file_of_ones_own_is_read(tmp_path):
                     " pressures: [5 bar]}\n")
     made = planned(schedule=str(file))
     assert made.title == "mine" and made.origins == (("a", "speeds", "'3 km/h'", "measured", ""),)
+
+
+@pytest.mark.parametrize("text, message", [
+    ("modules: 1.5", "modules: input should be a valid tuple"), ("[1, 2]", "expected a mapping of settings"),
+    ("title: a\nmodules: {a: 1}", "modules"), ("modules: [3]", "modules.0")])
+def test_files_that_are_no_schedule_are_refused(tmp_path, text, message):
+    (tmp_path / "s.yaml").write_text(text)
+    with pytest.raises(ConfigError, match=message):
+        schedule(tmp_path / "s.yaml")
+
+
+def test_a_list_of_modules_with_an_origin_is_one(tmp_path):
+    (tmp_path / "s.yaml").write_text(yaml_text({"title": "a", "modules": {"value": [STOPS], "origin": "stated"}}))
+    assert len(schedule(tmp_path / "s.yaml").modules) == 1

@@ -39,3 +39,23 @@ def test_what_is_no_picture_is_told(tmp_path):
     (tmp_path / "lining.png").write_text("no picture")
     with pytest.raises(ConfigError, match="a picture, as PNG or TIFF"):
         grey_image(tmp_path / "lining.png", "micro_friction.pad.inclusions.image")
+
+
+def test_a_damaged_scan_ends_with_the_process_that_reads_it(tmp_path):
+    """A MATLAB file inside out stops some readers of scans with errors that are none of a scan."""
+    from scipy.io import savemat
+
+    savemat(tmp_path / "a.mat", {"x": ROUGH})
+    content = (tmp_path / "a.mat").read_bytes()
+    for k in range(130, 190, 12):
+        (tmp_path / "a.mat").write_bytes(content[:k] + b"\xff" * 8 + content[k + 8:])
+        with pytest.raises(ConfigError, match="expected"):
+            levelled(Scan(file=str(tmp_path / "a.mat"), rms_height="1 um", reason="test"), "here")
+
+
+def test_a_picture_of_more_pixels_than_any_memory_holds_is_refused(tmp_path):
+    from PIL import Image
+
+    Image.new("1", (40000, 20000)).save(tmp_path / "lining.png")
+    with pytest.raises(ConfigError, match="DecompressionBombError"):
+        grey_image(tmp_path / "lining.png", "micro_friction.pad.inclusions.image")

@@ -19,7 +19,8 @@ def test_superscripts_and_dots():
 
 
 @pytest.mark.parametrize("unit", [
-    "", "m/", "*m", "m^10", "m^99", "m⁹⁹", "(m^9)^9", "m**9**9", "9**9**9**9 m/s", "2 m", "m 3", "m^(1/0)", "(m", "m)",
+    "", "m/", "*m", "m^0", "N^0", "m⁰", "m^(0/2)",
+    "m^10", "m^99", "m⁹⁹", "(m^9)^9", "m**9**9", "9**9**9**9 m/s", "2 m", "m 3", "m^(1/0)", "(m", "m)",
     "m^m", "m(", "1e-3 m", "m" * 121, "(" * 20 + "m" + ")" * 20, "m " * 30, "__import__('os')", "m;s", "3"])
 def test_what_is_no_unit(unit):
     with pytest.raises(NoUnitError):

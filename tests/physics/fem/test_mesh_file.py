@@ -127,3 +127,21 @@ def test_physical_groups_of_gmsh(tmp_path):
     read, groups, notes = read_mesh(tmp_path / "a.msh")
     assert set(groups) == {"FEW", "BORE"} and list(groups["FEW"]) == [0, 1, 2, 3, 4] and notes == ()
     assert np.array_equal(read.node[groups["BORE"]], mesh.node[inner])
+
+
+@pytest.mark.parametrize("vertex", [-1, 20, 10**9])
+def test_elements_of_nodes_that_are_not_there_are_refused(tmp_path, vertex):
+    """meshio passes them on, and -1 would be the last node."""
+    mesh = block(*[np.linspace(0, 0.1, 2)] * 3, kind="hexahedron20")
+    element = mesh.element.copy()
+    element[0, 3] = vertex
+    meshio.Mesh(mesh.node, [("hexahedron20", element)]).write(tmp_path / "a.vtu")
+    with pytest.raises(ConfigError, match=f"expected elements of its 20 nodes, found a vertex at row {vertex}"):
+        read_mesh(tmp_path / "a.vtu")
+
+
+@pytest.mark.parametrize("name", ["a.med", "a.xdmf", "a.cgns", "a.e", "a"])
+def test_formats_that_take_data_from_other_files_are_refused(tmp_path, name):
+    (tmp_path / name).write_bytes(b"x")
+    with pytest.raises(ConfigError, match=r"expected one of \.inp, \.msh, \.vtu"):
+        read_mesh(tmp_path / name)
