@@ -20,7 +20,8 @@ class Settings(Section):
     """Which modes, which values, and what is assumed of their scatter."""
 
     modes: int | None = option(None, "unstable modes, strongest first, those of one frequency counting once; none ="
-                                     " all, 0 = no sensitivities", ge=0)
+                                     " all, of a case with effects, which are not differentiated, no one; 0 = no"
+                                     " sensitivities", ge=0)
     differences: tuple[again.Difference, ...] = option(
         (), "settings of stages up to reduced_model for which the case is computed twice more, such as"
             " structure.disc.ring_thickness, with their scatter")
@@ -30,13 +31,17 @@ class Settings(Section):
 
 def _check(sections):
     again.check_differences(sections, "sensitivities.differences")
-    if "effects" in sections:
-        _refuse_effects(effect_block.product(sections["effects"]), sections["sensitivities"])
+    _asked(sections["sensitivities"], _effects(sections))
 
 
 def _variants(sections):
     """The case with each of the differences up and down, without a friction sweep, in the reduced model alone."""
-    return again.raised_and_lowered(sections) if sections["sensitivities"].modes != 0 else {}
+    asked = _asked(sections["sensitivities"], _effects(sections))
+    return again.raised_and_lowered(sections) if asked != 0 else {}
+
+
+def _effects(sections):
+    return effect_block.product(sections["effects"]) if "effects" in sections else None
 
 
 @stage(check=_check, variants=_variants)
@@ -54,8 +59,7 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     the case declares it or {unstated_scatter} of the value. Up to {remedies} values were changed until the strongest
     mode no longer grows in the reduced model.
     """
-    _refuse_effects(effects, settings)
-    points, chosen = stability_settings(modes), _chosen(modes, settings)
+    points, chosen = stability_settings(modes), _chosen(modes, _asked(settings, effects))
     where = modes.unstable_operating[chosen]
     tasks = [(operating, chosen[where == operating]) for operating in dict.fromkeys(where.tolist())]
     given = model, structure, friction_map, modes, points
@@ -63,7 +67,7 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     found = {int(mode): (each, k) for (_, members), each in solved for k, mode in enumerate(members)}
     rows = [found[int(mode)] for mode in chosen]
     attempt = partial(_tried, *given, where[0] if len(where) else 0)
-    others = again.by_differences(settings.differences, modes, chosen, varied, context.case)
+    others = again.by_differences(settings.differences if varied else (), modes, chosen, varied, context.case)
     return Sensitivities(
         mode=chosen, pressure=modes.operating_pressure[where], speed=modes.operating_speed[where],
         friction=modes.operating_friction[where], mode_root=modes.unstable_root[chosen],
@@ -73,17 +77,19 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
         left_out=list(LEFT_OUT), left_out_reason=list(LEFT_OUT.values()))
 
 
-def _refuse_effects(effects, settings):
+def _asked(settings, effects):
+    """How many modes, None for all. ConfigError where some are asked for beside effects."""
     terms = effect_block.physics_terms(effects)
-    if terms and settings.modes != 0:
-        raise ConfigError("sensitivities", "a case without effects, which are not differentiated",
-                          ", ".join(term.effect.name for term in terms), "set sensitivities.modes: 0")
+    if terms and settings.modes:
+        raise ConfigError("sensitivities.modes", "0 in a case with effects, which are not differentiated",
+                          f"{settings.modes}, and {', '.join(term.effect.name for term in terms)}", "leave it out")
+    return 0 if terms else settings.modes
 
 
-def _chosen(modes, settings):
-    """Indices of the modes, strongest first."""
+def _chosen(modes, count):
+    """Indices of up to ``count`` modes, strongest first."""
     first = np.flatnonzero(modes.unstable_first == np.arange(len(modes.unstable_first)))
-    return first[:settings.modes]
+    return first[:count]
 
 
 def _case(model, modes, points, operating):

@@ -114,11 +114,11 @@ def test_nothing_unstable_gives_nothing(brake):
     assert not len(none.mode) and not len(none.parameter) and not len(none.remedy_value) and len(none.left_out)
 
 
-def test_effects_are_refused_unless_there_is_nothing_to_do(brake):
+def test_a_case_with_effects_has_none_and_none_may_be_asked_for(brake):
     added = effects({"falling_friction": {"contact": {"rise": 0.2, "decay_speed": "100 mm/s"}}})
-    with pytest.raises(ConfigError, match="sensitivities.modes: 0"):
-        sensitivities(*brake, added, varied={}, settings=Settings())
-    assert not len(sensitivities(*brake, added, varied={}, settings=Settings(modes=0)).mode)
+    with pytest.raises(ConfigError, match="sensitivities.modes: expected 0 in a case with effects"):
+        sensitivities(*brake, added, varied={}, settings=Settings(modes=2))
+    assert not len(sensitivities(*brake, added, varied={}, settings=Settings()).mode)
 
 
 def test_settings_that_move_the_mesh_are_ranked_with_the_others(brake, made):
