@@ -10,8 +10,8 @@ import scipy
 
 from pipeline.case_models.rough import scans
 from pipeline.decks import matrix_files
+from pipeline.decks.meshes.body import read_body
 from pipeline.physics.fem.mesh import block
-from pipeline.physics.fem.mesh_file import read_mesh
 from tests.fuzz.mutation import damaged, draw, garbled
 from tests.fuzz.trial import Target, Trial, difference
 
@@ -156,7 +156,7 @@ def _mesh_content(form, scale):
 
 
 def _meshed(path, units="SI"):
-    mesh = read_mesh(path, units)
+    mesh = read_body(path, units).mesh
     corners = mesh.node[mesh.element]
     return {
         "middles": np.sort(corners.mean(axis=1), axis=0),
