@@ -39,12 +39,11 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     quadratic_roots,
     upper_half,
 )
-from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, from_map
+from pipeline.physics.sliding.equilibrium import ClosureResponse, from_map
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
 from pipeline.physics.stability.growth_balance import Losses
-from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel, Structure
 from pipeline.systems.fem_bodies import full_model
 
@@ -218,19 +217,13 @@ def _told(terms, context):
 def _state(settings, task):
     """The model about its state without friction, on a basis that serves all states of the sweep."""
     case, input_force = task
-    response, seeking = _response(case, settings), case.condensed() if case.moved else case
+    response, seeking = case.response(settings.centrifugal), case.seeking
     still = seeking.slide(response, input_force, constant(0.0), 0.0, settings)
     about = still.about(case.bench.model)
     basis = _basis(about, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
     bare = replace(case.bench.model, contacts=about.contacts)
     bare = bare if is_hard(about) else bare.projected(basis.shape)
     return _State(bare, response, input_force, basis, still, seeking if case.moved else case.within(bare))
-
-
-def _response(case, settings):
-    """ClosureResponse where the law of the model is what a sliding state is found with, else None."""
-    tabled = isinstance(case.base.law, Table) and not case.moved
-    return closure_response(case.bench.model, settings.centrifugal) if tabled else None
 
 
 def _friction_law(friction_map, model, settings):
@@ -277,8 +270,7 @@ def _roots_over_friction(settings, task):
 def _operate(settings, law, losses, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
     case, input_force = task
-    response, seeking = _response(case, settings), case.condensed() if case.moved else case
-    sliding = seeking.slide(response, input_force, *law, settings)
+    sliding = case.seeking.slide(case.response(settings.centrifugal), input_force, *law, settings)
     model = sliding.about(case.bench.model)
     basis = _basis(model, settings)
     about = model if is_hard(model) else model.projected(basis.shape)

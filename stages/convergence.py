@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.case_models.operating_points import middle_speed
+from pipeline.case_models.operating_points import MODES_ALONE, middle_speed
 from pipeline.contract import ConfigError, Context, Quantity, Section, Variants, option, stage
 from pipeline.physics.stability.refinement import moved_roots
 from pipeline.products import ComplexModes, Convergence
@@ -44,8 +44,7 @@ def _variants(sections):
     settings, brake, modes = sections["convergence"], sections["structure"], sections["complex_modes"]
     pressure, speed = operating_point(settings, brake.pressures, modes.speeds)
     once = {"structure.pressures": [f"{pressure!r} Pa"], "complex_modes.speeds": [f"{speed!r} rad/s"],
-            "structure.free_frequency_max": _RIGID, "complex_modes.friction_steps": 2,
-            "complex_modes.residual_tolerance": None, "complex_modes.followed": 0}
+            "structure.free_frequency_max": _RIGID, **MODES_ALONE}
     changes = {CONTACT: _finer_contact(brake.pad, settings), PAD_MESH: _finer_pads(brake.pad),
                DISC_MESH: _finer_disc(brake.disc), BASES: _larger_bases(brake, sections["reduced_model"], settings)}
     names = [name for name in settings.refinements if name != DISC_MESH or not brake.disc.mesh_file]

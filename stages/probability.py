@@ -23,7 +23,13 @@ from pipeline.case_models.scatter import (
     standard_deviation,
 )
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
-from pipeline.physics.stability.draw_statistics import band_of, first_order, rate_interval, third_octaves
+from pipeline.physics.stability.draw_statistics import (
+    among_bands,
+    first_order,
+    rate_interval,
+    squealing,
+    third_octaves,
+)
 from pipeline.physics.stability.sampled_roots import sampled
 from pipeline.physics.stability.scatter import NOMINAL
 from pipeline.physics.stability.whole_roots import beside_whole
@@ -155,11 +161,9 @@ def _results(roots, values, points, operating, settings):
              if s.real > max(points.neutral * abs(s), settings.least_growth)]
     draw, place, root = (np.array([f[c] for f in found], kind) for c, kind in enumerate((int, int, complex)))
     middles = third_octaves(_LOWEST_BAND, points.frequency_max)
-    hits, bands = np.zeros((count, operating), bool), np.zeros((count, len(middles), operating), bool)
-    squeals = abs(root) >= TWO_PI * points.squeal_from
-    hits[draw[squeals], place[squeals]] = True
-    inside = np.clip(band_of(abs(root) / TWO_PI, middles), 0, len(middles) - 1)
-    bands[draw, inside, place] = True
+    hits = squealing(root, draw, place, (count, operating), points.squeal_from)
+    bands = np.zeros((count, len(middles), operating), bool)
+    bands[draw, among_bands(root, middles), place] = True
     anywhere, index = bands.any(axis=2), first_order(values, growth.max(axis=1), settings.seed)
     return {
         "growth": growth, "root_draw": draw, "root_operating": place, "root": root,

@@ -37,7 +37,7 @@ MAY_IMPORT = {
     "pipeline.validation.published_facts": {"pipeline.contract"},
     "pipeline.recordings": {"pipeline.recordings", "pipeline.products", "pipeline.contract", "pipeline.environment"},
     "pipeline.recordings.registry": {"pipeline.contract"},
-    "pipeline.decks": {"pipeline.decks", "pipeline.recordings.apart", "pipeline.contract.errors"},
+    "pipeline.decks": {"pipeline.decks", "pipeline.contract.received.process", "pipeline.contract.errors"},
     "pipeline.decks.meshes": {"pipeline.decks.meshes", "pipeline.physics", "pipeline.contract.errors",
                               "pipeline.contract.received"},
     "pipeline.case_models": {"pipeline.case_models", "pipeline.products", "pipeline.effects", "pipeline.physics",

@@ -14,7 +14,13 @@ from pipeline.physics.contact.static_preload import Preload
 from pipeline.physics.friction.dry_friction import Friction, constant, falling, under
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.sliding.doublets import doublets
-from pipeline.physics.sliding.equilibrium import falling_with_speed, from_map, given_state, steady_sliding
+from pipeline.physics.sliding.equilibrium import (
+    closure_response,
+    falling_with_speed,
+    from_map,
+    given_state,
+    steady_sliding,
+)
 from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
 from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, present, settling
 from pipeline.physics.time_stepping.elements import Turning, bears
@@ -89,6 +95,16 @@ class Posed:
     def within(self, model):
         """The same in other coordinates: those of ``model``, a projection of that of the bench."""
         return replace(self, base=replace(self.base, model=model), bench=replace(self.bench, model=model))
+
+    def response(self, centrifugal):
+        """ClosureResponse where the law of the model is what a sliding state is found with, else None."""
+        tabled = isinstance(self.base.law, Table) and not self.moved
+        return closure_response(self.bench.model, centrifugal) if tabled else None
+
+    @property
+    def seeking(self):
+        """The same in the coordinates in which its sliding state is found."""
+        return self.condensed() if self.moved else self
 
     def condensed(self):
         """The same in the static answers to the forces of contacts, elements and inputs, which hold all that rests;

@@ -10,9 +10,9 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received.process import answered
 from pipeline.decks.entries import Entries, sound
 from pipeline.decks.labelled_matrices import abaqus, nastran
-from pipeline.recordings.apart import answered
 
 _READERS = "a .mat (up to version 7), .mtx, .mtx.gz or .npz file, an .mtx of Abaqus, or a .pch with DMIG of Nastran"
 _MARKET = b"%%MatrixMarket"

@@ -12,19 +12,17 @@ import re
 from difflib import get_close_matches
 from typing import Any
 
+from pipeline.case_models.operating_points import MODES_ALONE
 from pipeline.contract import ConfigError, Section, option
 from pipeline.contract.received.names import checked_all
 
 #: stages whose settings make modes
 OF_MODES = ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes")
-#: settings of complex modes that variants are computed with: neither sweep nor full matrices
-COMPUTED_WITH = {"complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None,
-                 "complex_modes.followed": 0}
 #: settings that must stay, and why
 _FIXED = {"structure.pressures": "operating points are compared one by one",
           "complex_modes.speeds": "operating points are compared one by one",
           "complex_modes.squeal_from": "squeal is counted alike before and after",
-          **dict.fromkeys(COMPUTED_WITH, "variants are computed in the reduced model, without a sweep over friction")}
+          **dict.fromkeys(MODES_ALONE, "variants are computed in the reduced model, without a sweep over friction")}
 #: how the names of variants begin in the run folder, where other stages have theirs
 PREFIX = "countermeasures."
 _COST = re.compile(r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)\s*(?P<unit>[^\d\s].*)?")
@@ -41,7 +39,7 @@ class Variant(Section):
 
 def changes(variants, more):
     """{name of a variant in the run folder: {'stage.key': value}} of declared ``variants``, with what all change."""
-    return {f"{PREFIX}{name}": {**variant.change, **COMPUTED_WITH, **more} for name, variant in variants.items()}
+    return {f"{PREFIX}{name}": {**variant.change, **MODES_ALONE, **more} for name, variant in variants.items()}
 
 
 def check_declared(variants, known):
@@ -95,7 +93,7 @@ def check_different(sections, varied):
 def _of_modes(sections):
     """All settings that modes depend on, without those that variants are computed with."""
     plain = {name: sections[name].model_dump() for name in OF_MODES if name in sections}
-    for key in COMPUTED_WITH:
+    for key in MODES_ALONE:
         stage, _, field = key.partition(".")
         plain[stage].pop(field, None)
     return plain

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.case_models.countermeasures.nearby_modes import SAME, modes_about
+from pipeline.case_models.countermeasures.nearby_modes import among, modes_about
 from pipeline.physics.modal.shape_matching import common_points, counterparts
 
 UNCHANGED, WEAKER, STRONGER, GONE, NEW, AMBIGUOUS = STATES = (
@@ -19,6 +19,8 @@ UNCHANGED, WEAKER, STRONGER, GONE, NEW, AMBIGUOUS = STATES = (
 _KNOWN = 0.25
 #: roots this close, as a share, are of one frequency
 _NEAR = 0.02
+#: roots of two solutions of one system differ by less than this share
+_SOLVED = 1e-5
 
 
 @dataclass(frozen=True)
@@ -68,12 +70,8 @@ def _at(operating, base, other, points, convergence, neutral):
     rows = [_row(operating, match, k, base.modes.unstable_root[j], root + shift[k], grows, convergence)
             for k, j in enumerate(before)]
     taken = {k for mode in range(len(before)) for k in _may_be(match, mode)}
-    left = np.array([k for k in np.flatnonzero(grows) if k not in taken and _among(root[k], unstable)], int)
+    left = np.array([k for k in np.flatnonzero(grows) if k not in taken and among(root[k], unstable, _SOLVED)], int)
     return rows + _new(operating, base, points, root[left], shape[left], convergence)
-
-
-def _among(root, roots):
-    return bool((abs(roots - root) <= 10 * SAME * abs(root)).any())
 
 
 def _may_be(match, mode):

@@ -12,14 +12,12 @@ from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import mapped_friction, posed
 from pipeline.physics.modal.nearest_modes import modes_near
-from pipeline.physics.sliding.equilibrium import closure_response
 from pipeline.physics.stability.growth_balance import Losses
-from pipeline.physics.time_stepping.simulate import Table
 
 #: modes sought about each target, and shift of the target beside a root, as a share of it
 NEAREST, _BESIDE = 24, 1 + 1e-4
 #: roots closer than this share of their size are one root
-SAME = 1e-6
+_SAME = 1e-6
 
 
 @dataclass(frozen=True)
@@ -38,11 +36,8 @@ def system_of(brake, operating):
     pressure, speed = brake.modes.operating_pressure[operating], float(brake.modes.operating_speed[operating])
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, speed, points.damping_speed, physics_terms(brake.effects), conditions(brake.effects))
-    tabled = isinstance(case.base.law, Table) and not case.moved
-    response = closure_response(case.bench.model, points.centrifugal) if tabled else None
-    seeking = case.condensed() if case.moved else case
-    sliding = seeking.slide(response, model.pressure[state] * model.input_area,
-                            *mapped_friction(brake.friction_map, points.sliding_distance), points)
+    sliding = case.seeking.slide(case.response(points.centrifugal), model.pressure[state] * model.input_area,
+                                 *mapped_friction(brake.friction_map, points.sliding_distance), points)
     about = sliding.about(case.bench.model)
     friction, beside = sliding.acting(points.friction_slopes), sliding.beside(about, points.friction_slopes)
     mass, damping, stiffness = about.linearised(friction, points.friction_damping, points.gyroscopic,
@@ -53,17 +48,22 @@ def system_of(brake, operating):
     return (mass, damping, stiffness), beside
 
 
+def among(root, roots, within=_SAME):
+    """Whether one of ``roots`` (r,) lies within this share of the size of a ``root`` from it."""
+    return bool((abs(roots - root) <= within * abs(root)).any())
+
+
 def modes_about(brake, operating, targets):
     """(roots (h,) 1/s, shapes (h, v, 3) on the surface) of the modes of a Brake near any of the ``targets`` (t,)."""
     matrices, beside = system_of(brake, operating)
     recovery = brake.model.recovery
     roots, shapes = np.empty(0, complex), []
     for target in targets:
-        if (abs(roots - target) <= SAME * abs(target)).any():
+        if among(target, roots):
             continue
         near, vectors = modes_near(*matrices, target * _BESIDE, NEAREST, beside)
         for root, vector in zip(near, vectors.T, strict=True):
-            if root.imag > 0 and not (abs(roots - root) <= SAME * abs(root)).any():
+            if root.imag > 0 and not among(root, roots):
                 roots = np.append(roots, root)
                 shapes.append(recovery @ vector[:recovery.shape[2]].astype(np.complex64))
     return roots, np.reshape(shapes, (len(roots), *recovery.shape[:2]))

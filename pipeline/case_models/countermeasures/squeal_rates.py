@@ -6,15 +6,13 @@ its counterpart then narrows the interval of the change.
 
 import numpy as np
 
-from pipeline.physics.stability.draw_statistics import band_of, rate_change
+from pipeline.physics.stability.draw_statistics import among_bands, rate_change, squealing
 
 
 def squealing_draws(probability):
     """(draw, operating point): whether a draw of a product Probability squeals there."""
-    hits = np.zeros((len(probability.value), len(probability.speed)), bool)
-    squeals = abs(probability.root) >= 2 * np.pi * float(probability.squeal_from)
-    hits[probability.root_draw[squeals], probability.root_operating[squeals]] = True
-    return hits
+    return squealing(probability.root, probability.root_draw, probability.root_operating,
+                     (len(probability.value), len(probability.speed)), float(probability.squeal_from))
 
 
 def paired(base, other):
@@ -43,7 +41,5 @@ def changes_in_bands(base, other):
 def _in_bands(probability, middles):
     """(draw, band): whether a draw has an unstable mode in it at any operating point."""
     hits = np.zeros((len(probability.value), len(middles)), bool)
-    band = band_of(abs(probability.root) / (2 * np.pi), middles)
-    inside = np.clip(band, 0, len(middles) - 1)
-    hits[probability.root_draw, inside] = True
+    hits[probability.root_draw, among_bands(probability.root, middles)] = True
     return hits

@@ -7,6 +7,7 @@
 
 import numpy as np
 
+from pipeline.case_models.operating_points import MODES_ALONE
 from pipeline.contract import ConfigError, Section, option
 from pipeline.contract.settings import leaves
 from pipeline.physics.stability.refinement import moved_roots
@@ -36,12 +37,11 @@ def check_differences(sections, where):
 def raised_and_lowered(sections):
     """{name of a variant: {setting: value}} of the differences of a case."""
     changes = {}
-    once = {"complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None, "complex_modes.followed": 0}
     for k, difference in enumerate(sections["sensitivities"].differences):
         value, unit = _setting(sections, difference.setting, f"sensitivities.differences.{k}.setting")
         for end, factor in ((MORE, 1 + difference.variation), (LESS, 1 - difference.variation)):
             written = f"{value * factor!r} {unit}" if unit else value * factor
-            changes[f"{difference.setting}.{end}"] = {**once, difference.setting: written}
+            changes[f"{difference.setting}.{end}"] = {**MODES_ALONE, difference.setting: written}
     return changes
 
 

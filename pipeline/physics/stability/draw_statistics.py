@@ -55,6 +55,19 @@ def band_of(frequency, middles):
     return np.round(10 * np.log10(np.asarray(frequency) / middles[0])).astype(int)
 
 
+def among_bands(root, middles):
+    """Index (k,) of the band of each ``root`` (k,) 1/s among ``middles`` (b,); of those beyond, the outermost."""
+    return np.clip(band_of(abs(np.asarray(root)) / (2 * np.pi), middles), 0, len(middles) - 1)
+
+
+def squealing(root, draw, operating, shape, squeal_from):
+    """``shape`` (draw, operating point): whether one of the unstable roots (k,) 1/s lies there and is no lower than
+    ``squeal_from`` Hz; ``draw`` (k,) and ``operating`` (k,) say where each is."""
+    hits, high = np.zeros(shape, bool), abs(root) >= 2 * np.pi * squeal_from
+    hits[draw[high], operating[high]] = True
+    return hits
+
+
 def first_order(values, outcome, seed):
     """(index (s,), standard error (s,), rank correlation (s,)) of ``outcome`` (n,) over sources ``values`` (n, s).
 

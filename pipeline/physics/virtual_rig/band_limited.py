@@ -3,6 +3,8 @@
 Source: Oppenheim and Schafer, Discrete-Time Signal Processing, sections 4.6 (interpolation) and 7.5 (Kaiser window).
 """
 
+from functools import lru_cache
+
 import numpy as np
 import scipy
 
@@ -18,15 +20,21 @@ def refined(samples, parts):
     Up to .45 of the rate given. Beyond both ends the samples are turned over, so that they go on as they end.
     """
     samples = np.array(samples, float)
-    if not samples.ndim or len(samples) < 2:
-        return samples
+    return samples if not samples.ndim or len(samples) < 2 else _refined(samples.tobytes(), parts)
+
+
+@lru_cache(maxsize=16)      # a fit runs the same inputs again and again
+def _refined(content, parts):
+    samples = np.frombuffer(content)
     added = min(2 * _REACH, len(samples) - 1)
     extended = np.concatenate((2 * samples[0] - samples[added:0:-1], samples,
                                2 * samples[-1] - samples[-2:-added - 2:-1]))
     if parts > 1:
         window = scipy.signal.firwin(2 * _REACH * parts + 1, 1 / parts, window=("kaiser", _SHAPE))
         extended = scipy.signal.resample_poly(extended, parts, 1, window=window)
-    return _compensated(extended)[added * parts:(added + len(samples) - 1) * parts + 1]
+    finer = _compensated(extended)[added * parts:(added + len(samples) - 1) * parts + 1].copy()
+    finer.flags.writeable = False
+    return finer
 
 
 def _compensated(samples):

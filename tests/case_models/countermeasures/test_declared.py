@@ -3,13 +3,13 @@
 import pytest
 
 from pipeline.case_models.countermeasures.declared import (
-    COMPUTED_WITH,
     Variant,
     changes,
     check_declared,
     check_different,
     costs,
 )
+from pipeline.case_models.operating_points import MODES_ALONE
 from pipeline.contract import ConfigError, Quantities, Section, option
 
 KNOWN = ("surface", "structure", "complex_modes", "probability", "countermeasures", "report")
@@ -54,7 +54,7 @@ def test_what_varies_is_computed_in_the_reduced_model_without_a_sweep():
     given = variants(shim={"change": {"structure.loss": 0.1}})
     check_declared(given, KNOWN)
     assert changes(given, {"probability.draws": 3}) == {
-        "countermeasures.shim": {"structure.loss": 0.1, **COMPUTED_WITH, "probability.draws": 3}}
+        "countermeasures.shim": {"structure.loss": 0.1, **MODES_ALONE, "probability.draws": 3}}
 
 
 def sections(loss=0.01, steps=9, **more):

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from pipeline.physics.stability.draw_statistics import (
+    among_bands,
     band_of,
     first_order,
     rate_change,
     rate_interval,
+    squealing,
     third_octaves,
 )
 
@@ -63,3 +65,10 @@ def test_first_order_indices_of_a_known_function(seed):
 
 def test_an_outcome_that_does_not_vary_has_no_sensitivities():
     assert not first_order(np.random.default_rng(0).normal(size=(100, 2)), np.ones(100), 1).any()
+
+
+def test_roots_count_where_they_are_high_enough_and_in_the_nearest_band():
+    root = 2 * np.pi * np.array([500j, 1000j, 3.2e3j, 5e4j])
+    hits = squealing(root, np.array([0, 1, 1, 2]), np.array([0, 0, 1, 1]), (3, 2), 1000.0)
+    assert hits.tolist() == [[False, False], [True, True], [False, True]]
+    assert among_bands(root, third_octaves(1000.0, 4000.0)).tolist() == [0, 0, 5, 6]
