@@ -12,7 +12,7 @@ from pipeline.case_models.steady_sliding import posed
 from pipeline.contract import Context, case
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.recordings import registry
-from stages.complex_modes import _friction_law, _response
+from stages.complex_modes import _friction_law
 from tests.chain.conftest import ROOT
 from tests.stages.finite_elements import FiniteElements
 
@@ -40,7 +40,8 @@ def test_unstable_roots_are_those_of_the_full_matrices():
     assert len(modes.unstable_root) >= 5 and set(modes.unstable_operating) == {0, 1}
     for state in set(modes.unstable_operating):
         there = posed(model, state, SPEED, settings.damping_speed)
-        sliding = there.slide(_response(there, settings), model.pressure[state] * model.input_area, *law, settings)
+        response, input_force = there.response(settings.centrifugal), model.pressure[state] * model.input_area
+        sliding = there.slide(response, input_force, *law, settings)
         about = sliding.about(there.bench.model)
         np.testing.assert_allclose(about.contacts.preload, modes.operating_force[state], rtol=1e-9)
         matrices = elements.about(about, sliding.acting(settings.friction_slopes))
