@@ -54,7 +54,7 @@ test-kernels: $(TESTED)  ## tests sensitive to rounding, with the kernels of oth
 		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
 
 test-slow: $(TESTED)  ## slow tests: full cases, kill and resume in every stage
-	$(BIN)/python -m pytest -q -m "slow and not study" -n auto --dist worksteal $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m "slow and not study" -n auto --dist worksteal --durations=20 --durations-min=30 $(ARGS) $(TESTS)
 
 test-study: $(TESTED)  ## long diagnoses: every kind of case, samples of the studies
 	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)

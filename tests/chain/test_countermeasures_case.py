@@ -21,6 +21,7 @@ SAME = "based_on: my_brake_quick.yaml\nstructure: {free_frequency_max: 2.1 kHz}\
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_damping_lowers_the_probability_of_squeal_and_no_change_leaves_it(tmp_path):
     brakechain("new", tmp_path / "my_brake", "--quick")
     files = [tmp_path / "damped.yaml", tmp_path / "same.yaml"]

@@ -25,7 +25,8 @@ def solved(law, quantity, seed, memory=lambda x: (), before=0):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("quantity, seed", [("displacement", 1), ("velocity", 2), ("acceleration", 3)])
+@pytest.mark.parametrize("quantity, seed", [
+    ("displacement", 1), ("velocity", 2), pytest.param("acceleration", 3, marks=pytest.mark.study)])
 def test_a_duffing_oscillator_is_named(quantity, seed):
     whole, found = solved(duffing, quantity, seed)
     assert found.decision.verdict == "missing", found.decision.reasons

@@ -117,7 +117,7 @@ def test_runs_without_friction_are_refused(believed, settings, message):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [3, 4, 5])
+@pytest.mark.parametrize("seed", [3, *(pytest.param(seed, marks=pytest.mark.study) for seed in (4, 5))])
 def test_the_shear_limit_of_an_independent_bench_is_within_the_stated_errors(seed, tmp_path):
     """Half-spaces, another contact solver, other cycles; the modulus is known, strength, wear and rate are not."""
     factors = worn.write(tmp_path / "worn.h5", seed, "")["factors"]
