@@ -14,7 +14,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import several
-from pipeline.inference.decision import other_form, second_effect, several_laws
+from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import recalibrate
@@ -254,7 +254,7 @@ class Asked:
 
     def of_its_form(self, told):
         """A Diagnosis ``told``, decided anew without laws that it names and that are of another form; where nothing can
-        be said, whether noise may be what is left."""
+        be said, whether noise may be what is left, and which tones stand out of it."""
         settings, rules = self.settings, self.settings.rules.decision
         while told.decision.verdict == "missing":
             first = told.named[0]
@@ -267,8 +267,8 @@ class Asked:
             told = replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
-        why = other_form.of_noise(told, settings.seed)
-        return replace(told, decision=replace(told.decision, reasons=(*told.decision.reasons, why))) if why else told
+        why = [why for why in (other_form.of_noise(told, settings.seed), steady_tones.told(told.null)) if why]
+        return replace(told, decision=replace(told.decision, reasons=(*told.decision.reasons, *why)))
 
 
 def _where_felt(elaborate, simple, screen, refits):

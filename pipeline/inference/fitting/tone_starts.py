@@ -16,7 +16,7 @@ from pipeline.inference.priors import LATENT_LIMIT
 #: frequencies that are tried, and how many of them a fit begins at
 _TRIED, _BEGUN = 4, 2
 #: ordinates of a spectrum for each that its length resolves
-_FINER = 4
+FINER = 4
 #: amplitude of the two predictions, in scales of its prior
 _SMALL = 0.02
 
@@ -37,25 +37,43 @@ def tone_of(candidate):
     return Tone(candidate.sizes[0], shapes["Hz"], shapes.get("rad"))
 
 
+class Spectrum(NamedTuple):
+    """Mean ``power`` (f,) of ``count`` whitened residuals over ``frequency`` (f,) [Hz], four ordinates to each resolved
+    one."""
+
+    frequency: np.ndarray
+    power: np.ndarray
+    count: int
+
+
+def spectrum(fit, channel=""):
+    """Spectrum of what a Fit leaves over all runs, of one ``channel`` or of all; None where samples have no order."""
+    ordered = [(run.rate, part)
+               for run, noise, white in zip(fit.runs, fit.noises, fit.residuals, strict=True)
+               if noise.ordered and run.rate
+               for name, part in zip(run.channels, noise.over_time(white), strict=True) if channel in ("", name)]
+    if not ordered:
+        return None
+    length = max(len(part) / rate for rate, part in ordered)
+    grid = np.arange(1, int(FINER * length * min(rate for rate, _ in ordered) / 2)) / (FINER * length)
+    return Spectrum(grid, sum(_power(part, rate, grid) for rate, part in ordered) / len(ordered), len(ordered))
+
+
 def standing_out(fit, count=_TRIED):
     """Frequencies (up to ``count``,) in Hz of the largest peaks in the spectrum of what a Fit leaves, over all runs,
     between its ordinates by a parabola."""
-    ordered = [(run.rate, part) for run, noise, white in zip(fit.runs, fit.noises, fit.residuals, strict=True)
-               if noise.ordered and run.rate for part in noise.over_time(white)]
-    if not ordered:
+    found = spectrum(fit)
+    if found is None:
         return np.empty(0)
-    length = max(len(part) / rate for rate, part in ordered)
-    grid = np.arange(1, int(_FINER * length * min(rate for rate, _ in ordered) / 2)) / (_FINER * length)
-    power = sum(_power(part, rate, grid) for rate, part in ordered)
-    padded = np.concatenate(([0.0], power, [0.0]))
-    peaks, _ = scipy.signal.find_peaks(padded, distance=_FINER)
+    grid, padded = found.frequency, np.concatenate(([0.0], found.power, [0.0]))
+    peaks, _ = scipy.signal.find_peaks(padded, distance=FINER)
     peaks = peaks[np.argsort(-padded[peaks])[:count]]
     before, at, after = (padded[peaks + k] for k in (-1, 0, 1))
     return grid[peaks - 1] + (grid[1] - grid[0]) * 0.5 * (after - before) / np.maximum(2 * at - before - after, 1e-300)
 
 
 def _power(part, rate, grid):
-    size = 1 << int(np.ceil(np.log2(_FINER * len(part))))
+    size = 1 << int(np.ceil(np.log2(FINER * len(part))))
     return np.interp(grid, np.fft.rfftfreq(size, 1 / rate), np.abs(np.fft.rfft(part, size)) ** 2 / len(part))
 
 
