@@ -5,6 +5,7 @@ products are groups) with ``units`` and ``long_name`` and dimension scales in th
 so that xarray (engine h5netcdf, group "data") sees named dimensions; ``/provenance`` attributes.
 """
 
+import errno
 import hashlib
 import os
 from contextlib import contextmanager, suppress
@@ -209,7 +210,12 @@ def _file(path, flaw):
 
 
 def _unwritable(path, error):
-    return ProductError(path, "a file that can be written", str(error), "check space and permissions")
+    number = getattr(error, "errno", None)
+    if number in (errno.ENOSPC, errno.EDQUOT):
+        return ProductError(path, "a file that can be written", "a full disk",
+                            "free space, then run the same command again: finished stages are kept")
+    return ProductError(path, "a file that can be written", os.strerror(number) if number else str(error),
+                        "check space and permissions")
 
 
 def _damaged(path, error):
