@@ -93,7 +93,7 @@ DOORS = {
     "cryptography": {"pipeline.blind_trial.protocol.sealing"}, "pint": {"pipeline.contract.units"},
     "pydantic_core": {"pipeline.cli.main"},
     "pydantic": {"pipeline.contract.settings", "pipeline.validation.published_facts", "pipeline.recordings.registry"},
-    "pooch": {"pipeline.recordings.registry"}, "distributed": {"pipeline.contract.executor"},
+    "pooch": {"pipeline.recordings.registry"}, "distributed": {"pipeline.contract.executors.cluster"},
     "skfem": {"pipeline.physics.fem.reference_cells", "pipeline.physics.fem.face_averages",
               "pipeline.physics.rough.layer_element"},
     "meshio": {"pipeline.physics.fem.mesh_file"},

@@ -89,7 +89,7 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
 
 def _execute(job, first, last, force, dry_run, workers, scheduler):
     from pipeline.cli.console import Bars, RunContext
-    from pipeline.contract import executor
+    from pipeline.contract import executors
 
     first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
     names = [s.name for s in job.case.stages]
@@ -102,7 +102,7 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     if dry_run:
         _show_plan(job.plan(first, last, frozenset(force)))
         return
-    work = executor.choose(workers or os.cpu_count() or 1, scheduler)
+    work = executors.choose(workers or os.cpu_count() or 1, scheduler)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
         computed = job.execute(context, first, last, frozenset(force), _report)

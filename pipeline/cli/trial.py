@@ -153,9 +153,9 @@ def remake(folder, into, key_file, workers, scheduler):
 def _working(workers, scheduler):
     from contextlib import closing
 
-    from pipeline.contract import executor
+    from pipeline.contract import executors
 
-    return closing(executor.choose(workers or os.cpu_count() or 1, scheduler))
+    return closing(executors.choose(workers or os.cpu_count() or 1, scheduler))
 
 
 def _counter(action):

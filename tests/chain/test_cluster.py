@@ -1,50 +1,17 @@
 """A Dask cluster with a worker in another process gives the same content as local processes."""
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 import time
-from contextlib import contextmanager
 
 import pytest
 
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from tests.blind_trial.protocol.their_set import their_set
 from tests.chain.conftest import QUICK, ROOT, brakechain, contents
+from tests.contract.executors.dask_processes import address_of, scheduler, worker
 
 pytest.importorskip("distributed")
-
-
-@contextmanager
-def process(*args, code=ROOT):
-    """A Dask process of our own on the loopback interface, with the project in ``code``; ended with the test."""
-    started = subprocess.Popen([sys.executable, "-m", "dask", *args], stderr=subprocess.PIPE, text=True, cwd=code,
-                               env={**os.environ, "PYTHONPATH": str(code)})
-    try:
-        yield started
-    finally:
-        started.terminate()
-        started.wait(20)
-        started.stderr.close()
-
-
-def address_of(scheduler):
-    for line in scheduler.stderr:
-        found = re.search(r"Scheduler at:\s+(tcp://\S+)", line)
-        if found:
-            return found[1]
-    pytest.fail("the scheduler did not tell its address")
-
-
-def scheduler(code=ROOT):
-    return process("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", code=code)
-
-
-def worker(address, count, folder, code=ROOT):
-    return process("worker", address, "--nthreads", "1", "--nworkers", str(count), "--no-dashboard",
-                   "--local-directory", str(folder), code=code)
 
 
 @pytest.mark.slow

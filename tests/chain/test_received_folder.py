@@ -11,7 +11,7 @@ from pipeline.blind_trial.protocol import solver_process
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from pipeline.contract import Context, ProductError, case, runner
 from pipeline.contract.errors import ConfigError
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract.executors import LocalProcesses
 from pipeline.environment import fix
 from pipeline.views.figures import scene
 from tests.chain.conftest import ROOT

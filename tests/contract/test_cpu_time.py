@@ -8,7 +8,7 @@ import pytest
 
 from pipeline.contract import Context, case, runner, store
 from pipeline.contract.cpu_time import cpu_seconds
-from pipeline.contract.executor import LocalProcesses, run_task
+from pipeline.contract.executors import LocalProcesses, run_task
 from tests.contract.toy import CHAINS, load
 
 SPENT = 0.3     # s

@@ -13,7 +13,7 @@ import stages
 from pipeline import sources
 from pipeline.cli.console import Bars, RunContext
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
-from pipeline.contract.executor import choose
+from pipeline.contract.executors import choose
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Compared, Doubled
 

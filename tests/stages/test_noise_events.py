@@ -9,7 +9,7 @@ import pytest
 import scipy
 
 from pipeline.contract import ConfigError, mapped, store
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract.executors import LocalProcesses
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.samples import channel
 from stages.noise_events import Settings, companions, noise_events

@@ -1,7 +1,7 @@
 """A Context that maps over two processes, for tests that the number of workers changes no bit."""
 
 from pipeline.contract import Context
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract.executors import LocalProcesses
 
 
 class TwoProcesses(Context):

@@ -20,7 +20,7 @@ from pipeline.blind_trial.metrics.criteria import class_of, judged
 from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract.executors import LocalProcesses
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.output.files import as_json
 from pipeline.products import Recording

@@ -3,7 +3,7 @@
 import json
 
 from pipeline.blind_trial.protocol import solver_process, solving
-from pipeline.contract.executor import InProcess
+from pipeline.contract.executors import InProcess
 
 COULOMB = {"name": "coulomb", "place": "link_0", "parameters": {}}
 TRUTH = {

@@ -10,7 +10,7 @@ from pipeline.blind_trial.metrics.criteria import VISIBLE
 from pipeline.blind_trial.protocol import making, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from pipeline.contract.errors import BrakechainError, ConfigError
-from pipeline.contract.executor import InProcess
+from pipeline.contract.executors import InProcess
 from tests.blind_trial.protocol.small_set import small_set
 
 KEY = sealing.Fernet.generate_key()

@@ -8,7 +8,7 @@ import pytest
 from pipeline.blind_trial.protocol import code_digest, making, sealing, solver_process, solving
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from pipeline.contract.errors import BrakechainError
-from pipeline.contract.executor import InProcess, LocalProcesses
+from pipeline.contract.executors import InProcess, LocalProcesses
 from tests.blind_trial.protocol.small_set import TOLD, TRUTH, refusing, small_set, solved
 
 KEY = sealing.Fernet.generate_key()

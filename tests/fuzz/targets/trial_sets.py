@@ -12,7 +12,7 @@ from pipeline.blind_trial.metrics.summary import lines
 from pipeline.blind_trial.protocol import making, sealing, solving
 from pipeline.blind_trial.protocol.scoring import score
 from pipeline.blind_trial.protocol.verifying import verify
-from pipeline.contract.executor import InProcess
+from pipeline.contract.executors import InProcess
 from tests.blind_trial.protocol.small_set import TOLD, small_set
 from tests.fuzz.documents import reshaped
 from tests.fuzz.mutation import draw, garbled

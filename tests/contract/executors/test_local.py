@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import BrakechainError, ConfigError, ConvergenceError
-from pipeline.contract.executor import DaskCluster, InProcess, LocalProcesses, choose, run_task
+from pipeline.contract.executors import DaskCluster, InProcess, LocalProcesses, choose, run_task
 
 
 def work(seed):
@@ -77,7 +77,7 @@ def test_choice():
 
 def test_workers_end_with_their_parent(tmp_path):
     script = tmp_path / "parent.py"
-    script.write_text("import os, time\nfrom pipeline.contract.executor import LocalProcesses\n"
+    script.write_text("import os, time\nfrom pipeline.contract.executors import LocalProcesses\n"
                       "if __name__ == '__main__':\n    p = LocalProcesses(1)\n"
                       "    print(p.map(eval, ['__import__(\"os\").getpid()'], lambda: None)[0], flush=True)\n"
                       "    os.kill(os.getpid(), 9)\n")
@@ -105,7 +105,7 @@ def _gone(pid, patience=10.0):
 
 _INTERRUPTED = """
 import os, signal, sys, threading, time
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract.executors import LocalProcesses
 
 if __name__ == "__main__":
     work = LocalProcesses(2)
@@ -124,5 +124,5 @@ def test_ctrl_c_ends_two_workers_without_a_traceback(tmp_path):
     (tmp_path / "main.py").write_text(_INTERRUPTED)
     begin = time.perf_counter()
     done = subprocess.run([sys.executable, "main.py"], cwd=tmp_path, capture_output=True, text=True, timeout=50,
-                          start_new_session=True, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])})
+                          start_new_session=True, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])})
     assert done.stdout == "stopped\n" and done.stderr == "" and time.perf_counter() - begin < 45

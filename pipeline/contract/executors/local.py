@@ -1,0 +1,100 @@
+"""Fan-out of independent tasks over this process or local processes.
+
+Every task runs with one BLAS thread; results come back in the order of the items.
+"""
+
+import multiprocessing
+import os
+import signal
+import threading
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+
+from threadpoolctl import threadpool_limits
+
+from pipeline.contract.cpu_time import cpu_seconds
+from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.fingerprint import project_digest
+from pipeline.contract.following import follow
+from pipeline.environment import ONE_THREAD, SAFE
+
+#: solvers have global state: one task at a time per process, also in a worker with several threads
+_ONE_TASK = threading.Lock()
+
+
+def run_task(function, item, code=None):
+    """One task, as every executor runs it: its result and the CPU seconds it took, child processes included.
+
+    ``code`` is the digest of the project that the task belongs to; a worker with another one refuses.
+    """
+    if code is not None and code != project_digest():
+        raise ConfigError("--scheduler: a worker", "the same brakechain code as here", "other code",
+                          "install the same version there and restart the worker")
+    os.environ.update(ONE_THREAD)
+    with _ONE_TASK, threadpool_limits(1):
+        begin = cpu_seconds()
+        return function(item), cpu_seconds() - begin
+
+
+class InProcess:
+    """One task after the other, here."""
+
+    spent_elsewhere = 0.0   # CPU seconds of tasks in other processes
+    sees_files = True       # tasks read and write files of this machine
+
+    def map(self, function, items, done):
+        """Results in the order of ``items``; ``done()`` is called after each."""
+        results = []
+        for item in items:
+            results.append(run_task(function, item)[0])
+            done()
+        return results
+
+    def close(self):
+        """Nothing to release."""
+
+
+def _begin(parent):
+    """Begin of a worker: it ends with its parent, and leaves Ctrl-C, which every process of a terminal gets, to it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    follow(parent)
+
+
+class LocalProcesses:
+    """``workers`` processes on this machine, started when first needed."""
+
+    sees_files = True
+
+    def __init__(self, workers):
+        self.workers, self._pool, self.spent_elsewhere = workers, None, 0.0
+
+    def map(self, function, items, done):
+        """Results in the order of ``items``; ``done()`` is called after each."""
+        if self._pool is None:
+            os.environ.update(ONE_THREAD | SAFE)
+            spawn = multiprocessing.get_context("spawn")
+            self._pool = ProcessPoolExecutor(self.workers, spawn, _begin, (os.getpid(),))
+        futures = [self._pool.submit(run_task, function, item) for item in items]
+        try:
+            for future in as_completed(futures):
+                self.spent_elsewhere += future.result()[1]
+                done()
+        except BrokenProcessPool:
+            raise BrakechainError("local processes", "workers that run to the end", "one that was killed",
+                                  "usually memory ran out: try --workers 1") from None
+        except BaseException as error:
+            for future in futures:
+                future.cancel()
+            if isinstance(error, KeyboardInterrupt):
+                self.stop()
+            raise
+        return [future.result()[0] for future in futures]
+
+    def close(self):
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+    def stop(self):
+        """End the workers now, without waiting for what they compute."""
+        for process in list((getattr(self._pool, "_processes", None) or {}).values()):
+            process.terminate()
