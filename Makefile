@@ -18,7 +18,7 @@ TESTED := .venv/.tested
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -114,6 +114,9 @@ study_several: $(TESTED)  ## joints with one to three laws at once, by simulatio
 
 study_disturbed: $(TESTED)  ## false alarms where noise, clocks, samples and joints are not as assumed; resumes case by case
 	$(BIN)/python -m tests.studies.disturbed $(ARGS)
+
+study_kills: $(TESTED)  ## 324 deaths of runs and of Dask workers at random moments, over nine chains; adds to data/studies/kills.csv
+	$(BIN)/python -m tests.studies.kills $(ARGS)
 
 study_second_family: $(TESTED)  ## identification rates on rigs that truly switch, the set of SEED; resumes case by case
 	$(BIN)/python -m tests.studies.second_family --seed $(SEED) $(ARGS)
