@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from tests.chain.conftest import ROOT
+from tests.chain.conftest import QUICK, ROOT, contents
 
 CASE = ROOT / "configs" / "two_mode_flutter.yaml"
 PRODUCTS = ("lumped", "effects", "reduced_model", "complex_modes", "transient", "comparison", "report")
@@ -46,6 +46,15 @@ def test_a_case_of_odd_names_runs_without_home_in_an_ascii_locale_and_in_little_
     assert "Größe Ω" in (folder / "Lauf 1" / "report.html").read_text(encoding="utf-8")
     code, told = run(folder / "Fall äöü.yaml", folder / "Lauf 1", environment, space=space)
     assert code == 0 and "nothing to compute" in told, told
+
+
+@pytest.mark.slow
+def test_threads_of_linear_algebra_change_no_bit(finished, tmp_path):
+    """Four threads are asked for; the quick brake takes one for each process, as everywhere."""
+    four = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "4")
+    code, told = run(QUICK, tmp_path / "run", four)
+    assert code == 0, told
+    assert contents(tmp_path / "run") == contents(finished)
 
 
 def on_small_disk(size, folder):
