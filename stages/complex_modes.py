@@ -22,16 +22,13 @@ from pipeline.case_models.steady_sliding import (
     Posed,
     Steady,
     branch_stiffness,
-    mapped_friction,
     posed,
     refuse_twice,
-    stated_friction,
+    sliding_friction,
 )
 from pipeline.case_models.unstable_roots import in_whole_model, nearly
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage, stored
-from pipeline.physics.friction.dry_friction import Friction, constant
-from pipeline.physics.friction.friction_table import refuse_beyond
-from pipeline.physics.friction.tangential_law import tangential_law
+from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
@@ -39,7 +36,7 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     quadratic_roots,
     upper_half,
 )
-from pipeline.physics.sliding.equilibrium import ClosureResponse, from_map
+from pipeline.physics.sliding.equilibrium import ClosureResponse
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
@@ -182,7 +179,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     states = context.map(partial(_state, settings), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
     roots = _sweep(states, friction, settings, context)
-    law = _friction_law(friction_map, model, settings)
+    law = sliding_friction(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
     losses = Losses.of(model)
     outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
@@ -224,17 +221,6 @@ def _state(settings, task):
     bare = replace(case.bench.model, contacts=about.contacts)
     bare = bare if is_hard(about) else bare.projected(basis.shape)
     return _State(bare, response, input_force, basis, still, seeking if case.moved else case.within(bare))
-
-
-def _friction_law(friction_map, model, settings):
-    """(Friction, the same over pressure and speed): of the map; without one, of the settings or the model."""
-    if friction_map is not None:
-        refuse_beyond(settings.sliding_distance, friction_map.distance[-1], "complex_modes.sliding_distance")
-        return mapped_friction(friction_map, settings.sliding_distance)
-    if settings.friction is None:
-        law = tangential_law(model).friction_law()
-        return Friction(law), partial(from_map, law, 0.0)
-    return stated_friction(settings)
 
 
 def _basis(model, settings, contact_stiffness=0.0):

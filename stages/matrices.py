@@ -8,17 +8,18 @@ from pipeline.contract import ConfigError, Context, Quantity, Section, option, s
 from pipeline.decks.matrix_files import read
 from pipeline.products import Matrices, MatrixTerm
 
-KINDS = ("mass", "damping", "stiffness")
+KINDS = ("mass", "damping", "stiffness", "loss")
 #: a mass matrix is symmetric to this share of its largest entry
 _SYMMETRIC = 1e-8
 
 
 class Settings(Section):
-    """Terms of the three matrices, each by a name of yours; units are consistent, and times in seconds."""
+    """Terms of the matrices, each by a name of yours; units are consistent, and times in seconds."""
 
     mass: dict[str, Term] = option({}, "terms of the mass matrix")
     damping: dict[str, Term] = option({}, "terms of the matrix of velocities: damping, gyroscopic, of friction")
     stiffness: dict[str, Term] = option({}, "terms of the matrix of displacements: stiffness, circulatory, of spin")
+    loss: dict[str, Term] = option({}, "terms of the imaginary part of the stiffness, by loss factors (hysteretic)")
     reference_speed: Quantity("rad/s", gt=0) = option("1 rad/s", "speed for which the terms are given")
 
 
@@ -45,8 +46,8 @@ def matrices(settings: Settings, context: Context) -> Matrices:
     """Read a system that another program wrote as matrices.
 
     Method:
-    The system was read as matrices of mass, damping and stiffness; terms are given for {reference_speed} and one
-    coefficient of friction, and change with both as stated.
+    The system was read as matrices of mass, damping, stiffness and hysteretic loss; terms are given for
+    {reference_speed} and one coefficient of friction, and change with both as stated.
     """
     held = {name: (kind, term, read(term.file, term.variable)) for kind in KINDS
             for name, term in getattr(settings, kind).items()}

@@ -47,6 +47,8 @@ MAY_IMPORT = {
     "pipeline.case_models.lumped": {"pipeline.contract", "pipeline.systems"},
     "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.case_models", "pipeline.products", "pipeline.effects",
                            "pipeline.inference", "pipeline.physics", "pipeline.contract"},
+    "pipeline.exports": {"pipeline.exports", "pipeline.contract", "pipeline.products", "pipeline.physics",
+                         "pipeline.systems.fem_bodies", "pipeline.case_models"},
     "pipeline.blind_trial": set(),
     "pipeline.blind_trial.generators": {"pipeline.blind_trial.generators", "pipeline.contract.errors"},
     "pipeline.blind_trial.baselines": {"pipeline.blind_trial.baselines", "pipeline.recordings.neutral",
@@ -71,6 +73,8 @@ MAY_IMPORT = {
                            "pipeline.blind_trial.metrics.summary",
                            "pipeline.blind_trial.generators.systems.SYSTEMS", "pipeline.views.pages.trial"},
     "pipeline.cli.export": {"pipeline.cli.options", "pipeline.contract", "pipeline.products", "pipeline.recordings"},
+    "pipeline.cli.run_export": {"pipeline.cli.options", "pipeline.exports", "pipeline.contract",
+                                "pipeline.physics.numerics.sparse_solver"},
     "pipeline.cli.new_case": {"pipeline.cli.options", "pipeline.contract", "stages"},
     "pipeline.cli.surface_fit": {"pipeline.case_models.rough", "pipeline.contract", "pipeline.recordings"},
     "pipeline.cli.main": {"pipeline.cli", "pipeline.contract", "pipeline.recordings", "stages",
@@ -88,7 +92,8 @@ DOORS = {
     "yaml": {"pipeline.contract.documents", "pipeline.contract.received.yaml_limits",
              "pipeline.blind_trial.generators.case_files"},
     "click": {"pipeline.cli.compare", "pipeline.cli.export", "pipeline.cli.facts", "pipeline.cli.main",
-              "pipeline.cli.new_case", "pipeline.cli.options", "pipeline.cli.surface_fit", "pipeline.cli.trial"},
+              "pipeline.cli.new_case", "pipeline.cli.options", "pipeline.cli.run_export", "pipeline.cli.surface_fit",
+              "pipeline.cli.trial"},
     "rich": {"pipeline.cli.console"},
     "cryptography": {"pipeline.blind_trial.protocol.sealing"}, "pint": {"pipeline.contract.units"},
     "pydantic_core": {"pipeline.cli.main"},
@@ -114,7 +119,7 @@ EAGER = re.compile(r"scipy\.")
 #: packages whose files all have a test of their own
 MIRRORED = ("stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings", "pipeline/decks",
             "pipeline/inference", "pipeline/effects", "pipeline/case_models", "pipeline/diagnosis",
-            "pipeline/blind_trial")
+            "pipeline/exports", "pipeline/blind_trial")
 #: formulas without code of their own, tested where they serve as the reference
 REFERENCES = "pipeline/physics/closed_form"
 MOST_FILES = 16

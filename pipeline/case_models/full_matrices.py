@@ -43,17 +43,23 @@ def has_full_matrices(structure, posed, settings, context):
     """
     if structure is None or settings.residual_tolerance is None or is_hard(posed.base.model):
         return False
+    lacking = lacking_terms(structure, posed, settings)
+    if lacking:
+        context.log(f"the full finite-element matrices are without {' and '.join(lacking)}: unstable roots are those of"
+                    " the reduced model")
+    return not lacking
+
+
+def lacking_terms(structure, posed, settings):
+    """[what] the full matrices of a product Structure lack of the reduced model of a case; arguments as of
+    ``has_full_matrices``."""
     bodies = [structure.body(str(name)) for name in structure.body_name]
     loses = any(part.any() for part in (structure.joint_loss_factor, structure.fluid_loss_factor,
                                         *(body.loss_factor for body in bodies)))
     reasons = {"effects of the case": bool(posed.terms),
                "damping ratios of bodies": any(body.damping_ratio > 0 for body in bodies),
                "viscous equivalents of loss factors": loses and not settings.hysteretic}
-    lacking = [reason for reason, holds in reasons.items() if holds]
-    if lacking:
-        context.log(f"the full finite-element matrices are without {' and '.join(lacking)}: unstable roots are those of"
-                    " the reduced model")
-    return not lacking
+    return [reason for reason, holds in reasons.items() if holds]
 
 
 def full_modes(full_model, models, slidings, modes, describe, settings, context):

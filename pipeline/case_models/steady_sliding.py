@@ -12,7 +12,8 @@ from pipeline.physics.contact.closure_law import damping_at_rest
 from pipeline.physics.contact.groups import alike, read
 from pipeline.physics.contact.static_preload import Preload
 from pipeline.physics.friction.dry_friction import Friction, constant, falling, under
-from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
+from pipeline.physics.friction.tangential_law import tangential_law
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.equilibrium import (
     closure_response,
@@ -221,3 +222,15 @@ def mapped_friction(friction_map, distance):
     the sliding ``distance`` in m."""
     law = FrictionLaw.of(friction_map)
     return Friction(law, distance=distance), partial(from_map, law, distance)
+
+
+def sliding_friction(friction_map, model, settings):
+    """The same of the products FrictionMap, or None, and ReducedModel: of the map; without one, of the ``settings`` (as
+    of the section ``complex_modes``) or of the model. Raises ConfigError beyond the distances of the map."""
+    if friction_map is not None:
+        refuse_beyond(settings.sliding_distance, friction_map.distance[-1], "complex_modes.sliding_distance")
+        return mapped_friction(friction_map, settings.sliding_distance)
+    if settings.friction is None:
+        law = tangential_law(model).friction_law()
+        return Friction(law), partial(from_map, law, 0.0)
+    return stated_friction(settings)

@@ -13,6 +13,7 @@ from pipeline.cli.export import export
 from pipeline.cli.facts import facts
 from pipeline.cli.new_case import new
 from pipeline.cli.options import options
+from pipeline.cli.run_export import export as run_export
 from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
 from pipeline.contract.errors import BrakechainError, shortened
@@ -290,6 +291,7 @@ def data_format():
 
 
 data.add_command(export)
+cli.add_command(run_export)
 cli.add_command(facts)
 cli.add_command(new)
 cli.add_command(trial)

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 import stages
-from pipeline.case_models.steady_sliding import posed
+from pipeline.case_models.steady_sliding import posed, sliding_friction
 from pipeline.contract import Context, case
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.recordings import registry
-from stages.complex_modes import _friction_law
 from tests.chain.conftest import ROOT
 from tests.stages.finite_elements import FiniteElements
 
@@ -36,7 +35,7 @@ def test_unstable_roots_are_those_of_the_full_matrices():
     model = stages.load("reduced_model")(structure, settings=chosen["reduced_model"], context=context)
     settings, elements = chosen["complex_modes"], FiniteElements(structure)
     modes = stages.load("complex_modes")(model, product, None, structure, settings=settings, context=context)
-    law = _friction_law(product, model, settings)
+    law = sliding_friction(product, model, settings)
     assert len(modes.unstable_root) >= 5 and set(modes.unstable_operating) == {0, 1}
     for state in set(modes.unstable_operating):
         there = posed(model, state, SPEED, settings.damping_speed)

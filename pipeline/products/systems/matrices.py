@@ -7,7 +7,7 @@ from pipeline.contract import Array, count, part, parts, product, quantity, text
 class MatrixTerm:
     """A sparse matrix that is multiplied by a sum of a speed^m friction^n, both over those of the matrices."""
 
-    kind: Array = text("", "what it is: mass, damping or stiffness")
+    kind: Array = text("", "what it is: mass, damping, stiffness or loss, the imaginary part of the stiffness")
     times: Array = text("", "what it is multiplied by, in words")
     source: Array = text("", "name of its file")
     row: Array = count("entry", "row of the entry")
@@ -20,7 +20,7 @@ class MatrixTerm:
 
 @product(version=1)
 class Matrices:
-    """s^2 M + s C + K, each a sum of terms."""
+    """s^2 M + s C + K + i H, each a sum of terms."""
 
     size: Array = count("", "degrees of freedom")
     node: Array = count("freedom", "node of each, empty where the files merely count them")

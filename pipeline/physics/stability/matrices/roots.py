@@ -161,7 +161,7 @@ def with_left(mode, matrices, solver):
         left = root**2 * inertia + root * drag + stiffness @ x
         root = root - np.vdot(y, left) / np.vdot(y, 2 * root * inertia + drag)
     residual = _residual(matrices, root, x)
-    other = _residual(tuple(matrix.T for matrix in matrices), np.conj(root), y)
+    other = _residual(tuple(matrix.conj().T for matrix in matrices), np.conj(root), y)
     if not max(residual, other) <= _RESIDUAL:
         raise ConvergenceError("complex modes", f"residuals below {_RESIDUAL:g} on both sides",
                                f"{residual:.2g} and {other:.2g} at {root.imag / TWO_PI:.5g} Hz")

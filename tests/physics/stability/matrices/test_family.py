@@ -21,7 +21,8 @@ def family(random, size=6):
                          Term("gyroscopic", "damping", 0.1 * square(False), ((1.0, 1, 0),)),
                          Term("friction damping", "damping", 0.1 * square(False), ((1.0, -1, 1), (-1.0, 0, 0))),
                          Term("stiffness", "stiffness", 50 * square(True), ((1.0, 0, 0),)),
-                         Term("circulatory", "stiffness", 5 * square(False), ((2.0, 0, 1), (0.5, 2, 0)))))
+                         Term("circulatory", "stiffness", 5 * square(False), ((2.0, 0, 1), (0.5, 2, 0))),
+                         Term("loss", "loss", 0.5 * square(True), ((1.0, 0, 0),))))
 
 
 def modes(of, speed, friction):
@@ -36,12 +37,15 @@ def test_matrices_are_the_sums_of_their_terms():
     assert abs(mass - parts["mass"]).max() == 0
     expected = parts["damping"] + 2 * parts["gyroscopic"] - 0.75 * parts["friction damping"]
     assert abs(damping - expected).max() < 1e-12
-    assert abs(stiffness - parts["stiffness"] - 3 * parts["circulatory"]).max() < 1e-12
+    assert abs(stiffness.real - parts["stiffness"] - 3 * parts["circulatory"]).max() < 1e-12
+    assert abs(stiffness.imag - parts["loss"]).max() < 1e-12
+    lossless = MatrixFamily(of.terms[:-1])
+    assert all(np.isrealobj(matrix.data) for matrix in lossless.at(2.0, 0.5))
 
 
 @pytest.mark.exact
 def test_derivatives_are_those_of_differences():
-    of, speed, friction, step = family(np.random.default_rng(1)), 1.3, 0.7, 1e-6
+    of, speed, friction, step = MatrixFamily(family(np.random.default_rng(1)).terms[:-1]), 1.3, 0.7, 1e-6
     found = modes(of, speed, friction)
     assert len(found) == 6
     for number, mode in enumerate(found):
@@ -60,3 +64,15 @@ def test_derivatives_are_those_of_differences():
             both = [(MatrixFamily((*of.terms[:k], replace(term, matrix=(1 + side * step) * term.matrix),
                                    *of.terms[k + 1:])), speed, friction) for side in (1, -1)]
             assert per_term[k] == pytest.approx(slope(*both), **near)
+
+
+@pytest.mark.exact
+def test_derivative_to_a_loss():
+    """m s^2 + k + i h = 0, so that ds / d ln h = -i h / (2 m s)."""
+    mass, stiffness, loss = 2.0, 5e5, 3e4
+    one = scipy.sparse.eye_array(1, format="csr")
+    of = MatrixFamily(tuple(Term(kind, kind, value * one, ((1.0, 0, 0),)) for kind, value in
+                            (("mass", mass), ("stiffness", stiffness), ("loss", loss))))
+    root = 1j * np.sqrt((stiffness + 1j * loss) / mass)
+    per_term, _ = of.derivatives(Mode(root, np.ones(1), np.ones(1), 0.0), 1.0, 1.0)
+    assert per_term[2] == pytest.approx(-1j * loss / (2 * mass * root))

@@ -55,3 +55,16 @@ def test_what_is_no_mode_is_refused():
     with pytest.raises(ConvergenceError, match="residuals below"):
         with_left(solver_of_roots.Mode(mode.root * 1.01, mode.right, None, 0.0),
                   (matrices[0], matrices[1], matrices[2] * 0.9), "superlu")
+
+
+@pytest.mark.exact
+def test_loss_factors_are_an_imaginary_stiffness():
+    """s = i sqrt(k (1 + i eta) / m) for each of the masses, whose left vectors are their right ones."""
+    loss, stiffness = np.array([0.01, 0.02, 0.05, 0.03]), np.array([1e6, 2e6, 3e6, 4e6])
+    matrices = (scipy.sparse.eye_array(4, format="csr"), scipy.sparse.csr_array((4, 4)),
+                scipy.sparse.csr_array(np.diag(stiffness * (1 + 1j * loss))))
+    found = strip_modes(matrices, 400.0, "superlu").modes
+    np.testing.assert_allclose([mode.root for mode in found], 1j * np.sqrt(stiffness * (1 + 1j * loss)), rtol=1e-10)
+    mode = with_left(found[2], matrices, "superlu")
+    assert mode.root == pytest.approx(found[2].root, rel=1e-10)
+    assert abs(np.vdot(mode.left, mode.right)) == pytest.approx(1.0)

@@ -1,0 +1,113 @@
+"""A sliding state as a system of matrices: terms of mass, damping, stiffness and loss, by what they stand for.
+
+The terms are those of ``SlidingModel.linearised``, one by one, with what each is multiplied by as speed and friction
+change while contacts and their forces stay: the form in which the chain ``matrices`` reads a system.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.steady_sliding import Posed, Steady, posed, sliding_friction
+from pipeline.contract import ConfigError, ProductError
+from pipeline.physics.sliding.model import SlidingModel, spread
+from pipeline.physics.stability.constrained_modes import is_hard
+from pipeline.physics.stability.growth_balance import Losses
+
+#: contact forces that were computed again may differ from those of the product by this share of the largest
+_SAME = 1e-6
+
+
+@dataclass(frozen=True)
+class NamedMatrix:
+    """A real ``matrix`` (n, n), dense or sparse, of a ``kind`` (mass, damping, stiffness, loss), and its ``times``."""
+
+    name: str
+    kind: str
+    matrix: np.ndarray
+    times: str = "1"
+
+
+@dataclass(frozen=True)
+class SlidingState:
+    """A case about steady sliding: its Posed, its Steady, the section ``complex_modes``, and the SlidingModel ``about``
+    it; ``losses``: of the product ReducedModel."""
+
+    posed: Posed
+    sliding: Steady
+    settings: object
+    about: SlidingModel
+    losses: Losses
+
+    @property
+    def friction(self):
+        """FrictionState that acts about it."""
+        return self.sliding.acting(self.settings.friction_slopes)
+
+    @property
+    def hysteretic(self):
+        """((n, n) damping, (n, n) imaginary stiffness) that make loss factors hysteretic; None where they are not."""
+        if not self.settings.hysteretic:
+            return None
+        return self.losses.enlarged(self.about.size).change(self.posed.base.model)
+
+
+def sliding_state(modes, model, friction_map, effects, operating):
+    """SlidingState of the products ComplexModes, ReducedModel, FrictionMap or None, Effects or None, at an operating
+    point, an index of the first.
+
+    Raises ConfigError for contacts that do not yield and for effects with states of their own, neither of which
+    matrices can hold; ProductError for products that do not belong together.
+    """
+    settings = stability_settings(modes)
+    pressure, speed = modes.operating_pressure[operating], float(modes.operating_speed[operating])
+    state = int(np.argmin(abs(model.pressure - pressure)))
+    case = posed(model, state, speed, settings.damping_speed, physics_terms(effects), conditions(effects))
+    sliding = case.seeking.slide(case.response(settings.centrifugal), model.pressure[state] * model.input_area,
+                                 *sliding_friction(friction_map, model, settings), settings)
+    about = sliding.about(case.bench.model)
+    if is_hard(about):
+        raise ConfigError("export: contacts", "a normal stiffness, which matrices can hold", "hard contacts",
+                          "give them a contact law or a stiffness")
+    if sliding.beside(about, settings.friction_slopes) is not None:
+        raise ConfigError("export: effects", "forces of displacement and velocity alone", "effects with states of their"
+                          f" own, among {', '.join(t.effect.name for t in case.terms)}", "leave these out")
+    force, known = sliding.contact.force, modes.operating_force[operating]
+    if force.shape != known.shape or abs(force - known).max(initial=0.0) > _SAME * abs(known).max(initial=0.0):
+        raise ProductError("export: contact forces", "those of complex_modes.h5", "others from reduced_model.h5, whose"
+                           " run or effects differ", "'brakechain run' computes what is out of date")
+    return SlidingState(case, sliding, settings, about, Losses.of(model))
+
+
+def terms_of(state):
+    """NamedMatrix terms of a SlidingState in the reduced model."""
+    return terms_about(state.about, state.friction, state.settings, state.hysteretic)
+
+
+def terms_about(about, friction, settings, hysteretic=None):
+    """NamedMatrix terms of a SlidingModel, dense or sparse, with a FrictionState; those without entries are left out.
+
+    ``hysteretic``: (damping, imaginary stiffness) to add, or None. Imaginary parts of stiffnesses are terms of loss.
+    """
+    contacts, slope = about.contacts, friction.speed_slope
+    mass, damping, stiffness = about.supported(gyroscopic=False, centrifugal=False)
+    if hysteretic is not None:
+        damping, stiffness = damping + hysteretic[0], stiffness + hysteretic[1]
+    normal, tangent, lateral = contacts.normal, contacts.tangent, contacts.lateral
+    coupling = about.coupling(friction)
+    turning = about.turning_drag(friction.coefficient) if settings.friction_damping else np.zeros(len(coupling))
+    terms = (
+        NamedMatrix("mass", "mass", mass), NamedMatrix("structural_damping", "damping", damping.real),
+        NamedMatrix("contact_damping", "damping", spread(normal, contacts.damping, normal)),
+        NamedMatrix("gyroscopic", "damping", settings.gyroscopic * about.speed * about.gyroscopic, "speed"),
+        NamedMatrix("friction_damping", "damping", spread(tangent, coupling * contacts.damping, normal), "friction"),
+        NamedMatrix("friction_over_slip", "damping", spread(tangent, contacts.preload * slope, tangent), "friction"),
+        NamedMatrix("friction_turning", "damping", spread(lateral, turning, lateral), "friction/speed"),
+        NamedMatrix("structural_stiffness", "stiffness", stiffness.real),
+        NamedMatrix("contact_stiffness", "stiffness", spread(normal, contacts.stiffness, normal)),
+        NamedMatrix("centrifugal", "stiffness", settings.centrifugal * about.speed**2 * about.centrifugal, "speed^2"),
+        NamedMatrix("circulatory", "stiffness", spread(tangent, coupling * contacts.stiffness, normal), "friction"),
+        NamedMatrix("hysteretic_loss", "loss", stiffness.imag))
+    return tuple(term for term in terms if abs(term.matrix).max() > 0)

@@ -1,0 +1,43 @@
+"""Command 'export': what other programs read of the products of a run."""
+
+from pathlib import Path
+
+import click
+
+from pipeline.cli.options import options
+
+_RUN = click.argument("run", type=click.Path(exists=True, file_okay=False, path_type=Path))
+_STATE = click.option("--state", type=int, metavar="N", help="operating point of complex_modes, from 0  [default: that"
+                                                              " of the most unstable mode]")
+
+
+@click.group("export")
+def export():
+    """Write what other programs read of the products in the folder RUN."""
+
+
+@export.command("matrices")
+@_RUN
+@click.argument("folder", type=click.Path(path_type=Path))
+@_STATE
+@click.option("--full", is_flag=True, help="the full finite-element matrices instead of the reduced model")
+@click.option("--format", "kind", type=click.Choice(["both", "npz", "mtx"]), default="both", show_default=True,
+              help="NumPy, Matrix Market")
+@options("debug")
+def matrices(run, folder, state, full, kind):
+    """Write mass, damping, stiffness, gyroscopic and circulatory matrices about a sliding state to FOLDER.
+
+    A case of the chain 'matrices' lies beside them, ready to run.
+    """
+    from pipeline.exports import matrix_files, matrix_system
+    from pipeline.physics.numerics import sparse_solver
+
+    matrix_files.refuse_existing(folder)
+    if matrix_system.is_given_as_matrices(run):
+        system = matrix_system.given_system(run)
+    elif full:
+        system = matrix_system.full_system(run, state, sparse_solver.available()[0])
+    else:
+        system = matrix_system.reduced_system(run, state)
+    case = matrix_files.write_system(system, folder, str(run), matrix_files.FORMATS[kind])
+    click.echo(f"{folder}: {len(system.terms)} matrices, {system.about}\nrun them with: brakechain run {case}")

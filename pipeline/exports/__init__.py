@@ -1,0 +1,1 @@
+"""What other programs read of a run: matrices, modes, functional mock-up units."""

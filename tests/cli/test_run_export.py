@@ -1,0 +1,35 @@
+"""'brakechain export': what it writes and what it says."""
+
+import pytest
+from click.testing import CliRunner
+
+from pipeline.cli.run_export import export
+from pipeline.contract.errors import BrakechainError
+from tests.exports.small_runs import flutter_run
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    return flutter_run(tmp_path_factory.mktemp("run"))
+
+
+def told(*words):
+    done = CliRunner().invoke(export, [str(word) for word in words], standalone_mode=False)
+    if done.exception:
+        raise done.exception
+    return done.output
+
+
+def test_matrices_of_a_state_with_their_case(run, tmp_path):
+    said = told("matrices", run, tmp_path / "out", "--state", 1, "--format", "mtx")
+    assert "6 matrices, reduced sliding model, operating point 1 (2 Pa, 3 rad/s)" in said
+    assert f"brakechain run {tmp_path / 'out' / 'out.yaml'}" in said
+    assert {p.name for p in (tmp_path / "out").iterdir()} >= {"mass.mtx", "circulatory.mtx", "out.yaml"}
+
+
+@pytest.mark.parametrize(("options", "expected"), [
+    (("--state", 7), "--state: expected one of 0"), (("--full",), "expected the product structure, found no file")])
+def test_what_cannot_be_exported_is_one_sentence(run, tmp_path, options, expected):
+    with pytest.raises(BrakechainError, match=expected):
+        told("matrices", run, tmp_path / "out", *options)
+    assert not (tmp_path / "out").exists()
