@@ -41,3 +41,28 @@ def matrices(run, folder, state, full, kind):
         system = matrix_system.reduced_system(run, state)
     case = matrix_files.write_system(system, folder, str(run), matrix_files.FORMATS[kind])
     click.echo(f"{folder}: {len(system.terms)} matrices, {system.about}\nrun them with: brakechain run {case}")
+
+
+@export.command("modes")
+@_RUN
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--body", metavar="NAME", help="real modes of this body on its supports instead of the unstable modes")
+@options("debug")
+def modes(run, file, body):
+    """Write mode shapes to FILE: universal file (.unv, .uff) or VTKHDF for ParaView (.vtkhdf).
+
+    By default the unstable complex modes, strongest first, on the surface of all bodies.
+    """
+    from pipeline.contract import ConfigError
+    from pipeline.exports import mode_set
+
+    kind = file.suffix.lower()
+    if kind not in (".unv", ".uff", ".vtkhdf"):
+        raise ConfigError(file, "a name that ends in .unv, .uff or .vtkhdf", repr(file.suffix))
+    chosen = mode_set.body_modes_of(run, body) if body else mode_set.complex_modes_of(run)
+    if kind == ".vtkhdf":
+        from pipeline.exports.vtkhdf_modes import write_vtkhdf as write
+    else:
+        from pipeline.exports.universal_modes import write_universal as write
+    write(chosen, file, str(run))
+    click.echo(f"{file}: {len(chosen.root)} modes at {len(chosen.node)} nodes, {chosen.scale}")

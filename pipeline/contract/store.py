@@ -70,6 +70,22 @@ def write_companion(path, content):
     _whole(Path(path), lambda partial: files.write_new(partial, content))
 
 
+@contextmanager
+def new_hdf5(path):
+    """A new HDF5 file of another layout than that of products, open to be written; none stays where that fails."""
+    path = Path(path)
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        with h5py.File(files.cleared(partial), "x") as h5:
+            yield h5
+        publish(partial, path)
+    except (OSError, RuntimeError) as error:
+        raise _unwritable(path, error) from error
+    finally:
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
+
+
 def _whole(path, fill):
     """Publish what ``fill`` writes to a temporary name; nothing of it stays where that fails."""
     partial = path.with_name(f".{path.name}.partial")

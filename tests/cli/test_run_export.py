@@ -5,7 +5,7 @@ from click.testing import CliRunner
 
 from pipeline.cli.run_export import export
 from pipeline.contract.errors import BrakechainError
-from tests.exports.small_runs import flutter_run
+from tests.exports.small_runs import brake_run, flutter_run
 
 
 @pytest.fixture(scope="module")
@@ -33,3 +33,11 @@ def test_what_cannot_be_exported_is_one_sentence(run, tmp_path, options, expecte
     with pytest.raises(BrakechainError, match=expected):
         told("matrices", run, tmp_path / "out", *options)
     assert not (tmp_path / "out").exists()
+
+
+def test_modes_by_the_suffix_of_their_file(tmp_path):
+    run = brake_run(tmp_path)
+    for name, options in (("modes.unv", ()), ("modes.vtkhdf", ()), ("disc.uff", ("--body", "disc"))):
+        assert "nodes, " in told("modes", run, tmp_path / name, *options) and (tmp_path / name).stat().st_size
+    with pytest.raises(BrakechainError, match=r"expected a name that ends in .unv, .uff or .vtkhdf, found '.stl'"):
+        told("modes", run, tmp_path / "modes.stl")
