@@ -66,3 +66,21 @@ def modes(run, file, body):
         from pipeline.exports.universal_modes import write_universal as write
     write(chosen, file, str(run))
     click.echo(f"{file}: {len(chosen.root)} modes at {len(chosen.node)} nodes, {chosen.scale}")
+
+
+@export.command("fmu")
+@_RUN
+@click.argument("file", type=click.Path(path_type=Path))
+@_STATE
+@options("debug")
+def fmu(run, file, state):
+    """Write the reduced sliding model, linearised, to FILE.fmu: FMI 2.0, co-simulation (needs the extra 'fmu')."""
+    from pipeline.contract import ConfigError
+    from pipeline.exports.fmu import unit_of, write_fmu
+
+    if file.suffix.lower() != ".fmu":
+        raise ConfigError(file, "a name that ends in .fmu", repr(file.suffix))
+    unit = unit_of(run, state)
+    write_fmu(unit, file, str(run))
+    click.echo(f"{file}: {unit.about}\ninputs: {', '.join(name for name, *_ in unit.inputs)}\n"
+               f"outputs: {', '.join(name for name, *_ in unit.outputs)}")

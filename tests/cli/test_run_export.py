@@ -41,3 +41,12 @@ def test_modes_by_the_suffix_of_their_file(tmp_path):
         assert "nodes, " in told("modes", run, tmp_path / name, *options) and (tmp_path / name).stat().st_size
     with pytest.raises(BrakechainError, match=r"expected a name that ends in .unv, .uff or .vtkhdf, found '.stl'"):
         told("modes", run, tmp_path / "modes.stl")
+
+
+def test_a_unit_by_its_suffix(run, tmp_path):
+    with pytest.raises(BrakechainError, match=r"expected a name that ends in .fmu, found '.zip'"):
+        told("fmu", run, tmp_path / "rig.zip")
+    pytest.importorskip("pythonfmu", reason="the extra 'fmu' is not installed")
+    said = told("fmu", run, tmp_path / "rig.fmu", "--state", 1)
+    assert "linearised about operating point 1 (2 Pa, 3 rad/s)" in said
+    assert "inputs: pressure, force.press, force_at.along" in said and (tmp_path / "rig.fmu").stat().st_size
