@@ -17,7 +17,7 @@ KINDS = {"strong copyleft": r"AGPL|Affero|(?<!L)GPL|(?<!Lesser )General Public L
          "of its maker": r"Proprietary|Intel|EXUDYN",
          "permissive": r"MIT|BSD|Apache|PSF|Python Software Foundation|ISC|Zlib|HPND|CC0|0BSD|matplotlib"}
 #: statements that say less than the licence file beside them, which was read
-READ = {"umf": "Apache-2.0 WITH LLVM-exception"}
+READ = {"fmpy": "BSD-2-Clause", "umf": "Apache-2.0 WITH LLVM-exception"}
 _SHOWN = 60
 
 
