@@ -72,15 +72,24 @@ def modes(run, file, body):
 @_RUN
 @click.argument("file", type=click.Path(path_type=Path))
 @_STATE
+@click.option("--contacts", metavar="STEP", help="with contacts that lift and stick, in steps of at most STEP, such as"
+              " '1 us'; needs brakechain where the unit runs  [default: linearised]")
 @options("debug")
-def fmu(run, file, state):
-    """Write the reduced sliding model, linearised, to FILE.fmu: FMI 2.0, co-simulation (needs the extra 'fmu')."""
+def fmu(run, file, state, contacts):
+    """Write the reduced sliding model about steady sliding to FILE.fmu: FMI 2.0, co-simulation.
+
+    Needs the extra 'fmu'.
+    """
     from pipeline.contract import ConfigError
-    from pipeline.exports.fmu import unit_of, write_fmu
+    from pipeline.contract.units import to_si
+    from pipeline.exports.fmu import contact_unit_of, unit_of, write_fmu
 
     if file.suffix.lower() != ".fmu":
         raise ConfigError(file, "a name that ends in .fmu", repr(file.suffix))
-    unit = unit_of(run, state)
+    step = to_si(contacts, "s", "--contacts") if contacts else None
+    if step is not None and not step > 0:
+        raise ConfigError("--contacts", "a step above 0", contacts)
+    unit = unit_of(run, state) if step is None else contact_unit_of(run, state, step)
     write_fmu(unit, file, str(run))
     click.echo(f"{file}: {unit.about}\ninputs: {', '.join(name for name, *_ in unit.inputs)}\n"
                f"outputs: {', '.join(name for name, *_ in unit.outputs)}")

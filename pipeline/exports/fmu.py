@@ -3,7 +3,8 @@
 The unit holds the model linearised about steady sliding, with friction, gyroscopic terms and the damping of its
 contacts; loss factors are viscous dampers of equal loss, as in all motions over time. It is true while contacts stay
 closed and slide: a growing mode grows without end. It steps itself exactly, with Python and NumPy of the machine it
-runs on.
+runs on. With contacts that lift and stick the unit holds the products of the run instead, and brakechain has to be
+installed where it runs.
 """
 
 import json
@@ -22,8 +23,17 @@ from pipeline import __version__
 from pipeline.case_models.matrices.sliding_terms import sliding_state
 from pipeline.contract import ConfigError
 from pipeline.contract.store import publish
-from pipeline.exports.run_products import described, operating_point, refuse_existing, safe_names, sliding_products
+from pipeline.exports.contact_motion import ContactMotion, with_inputs
+from pipeline.exports.run_products import (
+    described,
+    operating_point,
+    product_of,
+    refuse_existing,
+    safe_names,
+    sliding_products,
+)
 from pipeline.physics.modal.modal_form import ModalForm, modal_form
+from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
 
 _SLAVE = Path(__file__).with_name("fmu_slave.py")
 #: what is observed at each sensor, and its unit
@@ -34,12 +44,19 @@ _HASH = 12
 
 @dataclass(frozen=True)
 class Unit:
-    """A ModalForm with (name, meaning, unit) of its inputs (i,) and outputs (3 s,), and what it is in words."""
+    """A model with (name, meaning, unit) of its inputs (i,) and outputs (o,), and what it is in words.
 
-    form: ModalForm
+    ``form``: of a linearised model its ModalForm; else ``products``, files of the run, and what ContactMotion is made
+    of beside them: ``operating`` point and longest ``step`` in s.
+    """
+
     inputs: tuple
     outputs: tuple
     about: str
+    form: ModalForm | None = None
+    products: tuple = ()
+    operating: int = 0
+    step: float = 0.0
 
 
 def unit_of(folder, wanted=None):
@@ -53,15 +70,38 @@ def unit_of(folder, wanted=None):
     state = sliding_state(modes, model, friction_map, effects, operating)
     about, settings = state.about, state.settings
     matrices = about.linearised(state.friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
-    names = [safe_names(each) for each in (about.input_name, about.sensor_name)]
-    inputs = [("pressure", "change of the nominal pad pressure", "Pa"),
-              *((f"force.{n}", f"force on the input {n} beside the steady one", "N") for n in names[0]),
-              *((f"force_at.{n}", f"force at the sensor {n}, in its direction", "N") for n in names[1])]
-    outputs = [(f"{n}.{seen}", f"{seen} at the sensor {n} about steady sliding", unit) for n in names[1]
+    inputs, sensors = _interface(about)
+    outputs = [(f"{n}.{seen}", f"{seen} at the sensor {n} about steady sliding", unit) for n in sensors
                for seen, unit in _OBSERVED]
-    rows = np.vstack((model.input_area @ about.input_rows, about.input_rows, about.sensor_rows))
-    return Unit(modal_form(matrices, rows, about.sensor_rows), tuple(inputs), tuple(outputs),
-                f"reduced sliding model linearised about operating point {described(modes, operating)}")
+    form = modal_form(matrices, with_inputs(about, model.input_area).input_rows, about.sensor_rows)
+    return Unit(inputs, tuple(outputs),
+                f"reduced sliding model linearised about operating point {described(modes, operating)}", form)
+
+
+def contact_unit_of(folder, wanted, step):
+    """Unit of the same with contacts that lift and stick, in steps of at most ``step`` s. Errors as of
+    ``ContactMotion.of``."""
+    modes = product_of(ComplexModes, folder)
+    operating = operating_point(modes, wanted)
+    motion = ContactMotion.of(folder, operating, step)
+    inputs, sensors = _interface(motion.bench.model, len(motion.steady) - len(motion.origin) - 1)
+    outputs = [(f"{n}.{seen}", f"{seen} at the sensor {n} about steady sliding", unit) for n in sensors
+               for seen, unit in _OBSERVED[:2]]
+    outputs += [("contacts.normal_force", "normal force of all contacts", "N"),
+                ("contacts.friction_force", "friction force of all contacts along sliding", "N")]
+    files = (folder / f"{cls.name}.h5" for cls in (ComplexModes, ReducedModel, FrictionMap, Effects))
+    return Unit(inputs, tuple(outputs), f"reduced sliding model with its contacts, from operating point"
+                f" {described(modes, operating)}", products=tuple(f for f in files if f.exists()), operating=operating,
+                step=step)
+
+
+def _interface(model, count=None):
+    """(inputs of a unit, safe names of the sensors) of a SlidingModel; ``count``: of its inputs that are its own."""
+    own = model.input_name if count is None else model.input_name[1:count + 1]
+    names, sensors = safe_names(own), safe_names(model.sensor_name)
+    return (("pressure", "change of the nominal pad pressure", "Pa"),
+            *((f"force.{n}", f"force on the input {n} beside the steady one", "N") for n in names),
+            *((f"force_at.{n}", f"force at the sensor {n}, in its direction", "N") for n in sensors)), sensors
 
 
 def write_fmu(unit, path, source):
@@ -77,17 +117,21 @@ def write_fmu(unit, path, source):
                           "install the extra: pip install 'brakechain[fmu]'") from None
     name = _identifier(path.stem)
     interface = {"name": name, "description": f"{unit.about}, from {source}", "version": __version__,
-                 "inputs": unit.inputs, "outputs": unit.outputs}
+                 "inputs": unit.inputs, "outputs": unit.outputs,
+                 **({"operating": unit.operating, "step": unit.step} if unit.products else {})}
     hashed = _hash(unit, interface)
     with TemporaryDirectory(prefix="fmu_") as folder, _own_imports(f"{name}_{hashed[:_HASH]}") as module:
         script, built = Path(folder) / f"{module}.py", path.with_name(f".{path.stem}.partial.fmu")
         copyfile(_SLAVE, script)
-        numbers, about = script.with_name("model.npz"), script.with_name("interface.json")
-        np.savez(numbers, root=unit.form.root, drive=unit.form.drive, rows=unit.form.rows)
+        about, files = script.with_name("interface.json"), [*unit.products]
         about.write_text(json.dumps({**interface, "guid": str(UUID(hashed[:32]))}), encoding="utf-8")
+        if unit.form is not None:
+            files = [script.with_name("model.npz")]
+            np.savez(files[0], root=unit.form.root, drive=unit.form.drive, rows=unit.form.rows)
+        kept = unit.form is not None
         try:
-            FmuBuilder.build_FMU(script, dest=built, project_files=[numbers, about], canGetAndSetFMUstate=True,
-                                 canSerializeFMUstate=True)
+            FmuBuilder.build_FMU(script, dest=built, project_files=[*files, about], canGetAndSetFMUstate=kept,
+                                 canSerializeFMUstate=kept)
             publish(built, path)
         finally:
             built.unlink(missing_ok=True)
@@ -102,8 +146,10 @@ def _identifier(name):
 def _hash(unit, interface):
     """SHA-256 of what the unit holds."""
     digest = sha256(json.dumps(interface, sort_keys=True).encode())
-    for part in (unit.form.root, unit.form.drive, unit.form.rows):
+    for part in () if unit.form is None else (unit.form.root, unit.form.drive, unit.form.rows):
         digest.update(np.ascontiguousarray(part).tobytes())
+    for file in unit.products:
+        digest.update(file.read_bytes())
     return digest.hexdigest()
 
 

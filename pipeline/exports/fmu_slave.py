@@ -1,7 +1,8 @@
-"""What an exported functional mock-up unit runs: steady sliding, linearised, stepped exactly in its complex modes.
+"""What an exported functional mock-up unit runs: a model about steady sliding, its inputs, its outputs.
 
-Copied into the unit beside model.npz and interface.json; needs NumPy and nothing of brakechain. Inputs are held over
-each communication step, which may have any length; outputs are motions about steady sliding at its end.
+Copied into the unit beside interface.json and the model: model.npz of the linearised one, stepped exactly in its
+complex modes, which needs NumPy and nothing of brakechain; or products of the run, whose contacts brakechain steps.
+Inputs are held over each communication step, which may have any length; outputs are those at its end.
 """
 
 import json
@@ -18,19 +19,52 @@ _UNITS = {"N": {"kg": 1, "m": 1, "s": -2}, "Pa": {"kg": 1, "m": -1, "s": -2}, "m
           "m/s": {"m": 1, "s": -1}, "m/s2": {"m": 1, "s": -2}}
 
 
+class ComplexModes:
+    """x_k' = s_k x_k + b_k u, q = Re sum_k c_k x_k; outputs: displacement, velocity, acceleration of each sensor."""
+
+    def __init__(self, folder, about):
+        with np.load(folder / "model.npz") as held:
+            self.root, self.drive, self.rows = (held[name] for name in ("root", "drive", "rows"))
+        self.state, self.outputs = np.zeros(len(self.root), complex), np.zeros(3 * len(self.rows))
+
+    def step(self, inputs, length):
+        grown, at_rest = self.root * length, self.root == 0
+        given = np.where(at_rest, length, np.expm1(grown) / np.where(at_rest, 1, self.root))
+        state = np.exp(grown) * self.state + given * (self.drive @ inputs)
+        if not np.isfinite(state).all():
+            raise ArithmeticError("the motion grew beyond all numbers: the linearised model ends there")
+        self.state, rate = state, self.root * state
+        motion = state, rate, self.root * (rate + self.drive @ inputs)
+        self.outputs = np.column_stack([(self.rows @ each).real for each in motion]).ravel()
+
+    def kept(self):
+        return np.column_stack((self.state.real, self.state.imag)).tolist(), self.outputs.tolist()
+
+    def restore(self, kept):
+        parts, self.outputs = (np.array(part) for part in kept)
+        self.state = parts[:, 0] + 1j * parts[:, 1]
+
+
+def contacts(folder, about):
+    """The same with contacts that lift and stick, by the brakechain of this machine."""
+    from pipeline import __version__
+    from pipeline.exports.contact_motion import ContactMotion
+
+    if __version__ != about["version"]:
+        raise RuntimeError(f"expected brakechain {about['version']}, which wrote this unit, found {__version__}")
+    return ContactMotion.of(folder, about["operating"], about["step"])
+
+
 class SteadySliding(Fmi2Slave):
-    """x_k' = s_k x_k + b_k u, q = Re sum_k c_k x_k."""
+    """A model about steady sliding, from its start at the first communication point."""
 
     def __init__(self, **options):
         super().__init__(**options)
-        folder = Path(self.resources)
-        about = json.loads((folder / "interface.json").read_text(encoding="utf-8"))
-        with np.load(folder / "model.npz") as held:
-            self.root, self.drive, self.rows = (held[name] for name in ("root", "drive", "rows"))
+        self.folder = Path(self.resources)
+        self.about = about = json.loads((self.folder / "interface.json").read_text(encoding="utf-8"))
         self.modelName, self.description, self.version = about["name"], about["description"], about["version"]
-        self.guid = UUID(about["guid"])
-        self.state, self.inputs = np.zeros(len(self.root), complex), np.zeros(len(about["inputs"]))
-        self.outputs = np.zeros(len(about["outputs"]))
+        self.guid, self.inputs = UUID(about["guid"]), np.zeros(len(about["inputs"]))
+        self.exit_initialization_mode()
         self.units = {name: unit for name, _, unit in (*about["inputs"], *about["outputs"])}
         for k, (name, meaning, _) in enumerate(about["inputs"]):
             self.register_variable(Real(name, causality=Fmi2Causality.input, description=meaning, start=0.0,
@@ -38,7 +72,8 @@ class SteadySliding(Fmi2Slave):
                                         setter=lambda value, k=k: self.inputs.__setitem__(k, value)))
         for k, (name, meaning, _) in enumerate(about["outputs"]):
             self.register_variable(Real(name, causality=Fmi2Causality.output, description=meaning,
-                                        variability=Fmi2Variability.continuous, getter=lambda k=k: self.outputs[k]))
+                                        variability=Fmi2Variability.continuous,
+                                        getter=lambda k=k: self.motion.outputs[k]))
 
     def to_xml(self, model_options=None):
         """The description of the unit, with the units of its variables and its unknowns at the start."""
@@ -57,33 +92,20 @@ class SteadySliding(Fmi2Slave):
         return root
 
     def exit_initialization_mode(self):
-        self.state = np.zeros(len(self.root), complex)
-        self._observe()
+        self.motion = (contacts if "operating" in self.about else ComplexModes)(self.folder, self.about)
 
     def do_step(self, current_time, step_size):
-        grown, force = self.root * step_size, self.drive @ self.inputs
-        at_rest = self.root == 0
-        given = np.where(at_rest, step_size, np.expm1(grown) / np.where(at_rest, 1, self.root))
-        state = np.exp(grown) * self.state + given * force
-        if not np.isfinite(state).all():
-            self.log("the motion grew beyond all numbers: the linearised model ends there", Fmi2Status.error)
+        try:
+            self.motion.step(self.inputs, step_size)
+        except Exception as error:      # what a solver says, in the log of the importer
+            self.log(str(error), Fmi2Status.error)
             return False
-        self.state = state
-        self._observe()
         return True
 
-    def _observe(self):
-        """Displacements, velocities and accelerations, output by output."""
-        rate = self.root * self.state
-        motion = self.state, rate, self.root * (rate + self.drive @ self.inputs)
-        self.outputs[:] = np.column_stack([(self.rows @ each).real for each in motion]).ravel()
-
     def _get_fmu_state(self):
-        parts = np.column_stack((self.state.real, self.state.imag)).tolist()
-        return {**super()._get_fmu_state(), "parts": parts, "seen": self.outputs.tolist()}
+        return {**super()._get_fmu_state(), "motion": self.motion.kept()}
 
     def _set_fmu_state(self, state):
         known = dict(state)
-        parts, self.outputs = np.array(known.pop("parts")), np.array(known.pop("seen"))
-        self.state = parts[:, 0] + 1j * parts[:, 1]
+        self.motion.restore(known.pop("motion"))
         super()._set_fmu_state(known)

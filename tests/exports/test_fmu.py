@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.exports.fmu import unit_of, write_fmu
+from pipeline.exports.contact_motion import ContactMotion
+from pipeline.exports.fmu import contact_unit_of, unit_of, write_fmu
 from pipeline.exports.run_products import sliding_products
 from tests.exports.stepped import deviation
 
@@ -96,3 +97,15 @@ def test_a_unit_is_valid_and_goes_back_to_a_state(rig, fmpy, tmp_path):
     unit.freeFMUstate(kept)
     unit.terminate()
     unit.freeInstance()
+
+
+def test_a_unit_with_contacts_steps_as_our_own_integrator(rig, fmpy, tmp_path):
+    """In ten communication steps as in one run, to the rounding; under a force that lifts the contact."""
+    write_fmu(contact_unit_of(rig, 1, 1e-6), tmp_path / "rig.fmu", "a test")
+    names, found = run(fmpy, tmp_path / "rig.fmu", 10, 1e-4, **{"force.press": -300.0})
+    motion = ContactMotion.of(rig, 1, 1e-6)
+    assert motion.outputs[-2:] == pytest.approx(sliding_products(rig)[0].operating_force[1].sum() * np.array([1, 0.4]))
+    motion.step(np.array([0.0, -300.0, 0.0]), 1e-3)
+    assert names == ("along.displacement", "along.velocity", "contacts.normal_force", "contacts.friction_force")
+    np.testing.assert_allclose(found[-1], motion.outputs, rtol=1e-9)
+    assert (found[:, 2] == 0).any() and (found[:, 2] > 0).any()
