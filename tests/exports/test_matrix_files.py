@@ -68,6 +68,8 @@ def test_what_was_given_as_matrices_is_given_again(tmp_path):
         for name, (kind, times, _) in terms.items()}))
     assert is_given_as_matrices(run)
     case_file = write_system(given_system(run), tmp_path / "again", "a test", FORMATS["mtx"])
+    assert "units are as they were given" in case_file.read_text()
+    assert not (tmp_path / "again" / "rows.npz").exists()
     assert (tmp_path / "again" / "freedoms.csv").read_text() == "row,node,direction\n1,5,1\n2,5,3\n"
     given, _ = ran(case_file, solved=False)
     assert float(given.reference_speed) == 8.0
