@@ -14,8 +14,8 @@ FORMATS = {"both": (NPZ, MARKET), NPZ: (NPZ,), MARKET: (MARKET,)}
 #: kinds in the order in which a case states them
 _KINDS = "mass", "damping", "stiffness", "loss"
 _GIVEN = "# Terms, what they are multiplied by, and units are as they were given; freedoms.csv says what each row is.\n"
-_SLIDING = """# SI units. 'times' holds while contacts and their forces stay as they are at {speed:.6g} rad/s: elsewhere,
-# export another state. freedoms.csv says what each row is; rows.npz holds the rows of inputs and sensors.
+_SLIDING = """# SI units. 'times' holds while contacts and their forces stay as they are at {speed:.6g} rad/s:
+# elsewhere, export another state. freedoms.csv says what each row is; rows.npz holds the rows of inputs and sensors.
 """
 _HEAD = """# {about}
 # Written by 'brakechain export matrices' from {source}. Run it with
