@@ -28,6 +28,7 @@ class ComplexModes:
         self.state, self.outputs = np.zeros(len(self.root), complex), np.zeros(3 * len(self.rows))
 
     def step(self, inputs, length):
+        """Go on by ``length`` s under ``inputs`` (i,) that are held. ArithmeticError beyond all numbers."""
         grown, at_rest = self.root * length, self.root == 0
         given = np.where(at_rest, length, np.expm1(grown) / np.where(at_rest, 1, self.root))
         state = np.exp(grown) * self.state + given * (self.drive @ inputs)
@@ -38,9 +39,11 @@ class ComplexModes:
         self.outputs = np.column_stack([(self.rows @ each).real for each in motion]).ravel()
 
     def kept(self):
+        """State and outputs as lists."""
         return np.column_stack((self.state.real, self.state.imag)).tolist(), self.outputs.tolist()
 
     def restore(self, kept):
+        """Take state and outputs as ``kept`` gave them."""
         parts, self.outputs = (np.array(part) for part in kept)
         self.state = parts[:, 0] + 1j * parts[:, 1]
 
@@ -92,9 +95,11 @@ class SteadySliding(Fmi2Slave):
         return root
 
     def exit_initialization_mode(self):
+        """Start in steady sliding."""
         self.motion = (contacts if "operating" in self.about else ComplexModes)(self.folder, self.about)
 
     def do_step(self, current_time, step_size):
+        """Whether a step of ``step_size`` s could be done; what prevents it stands in the log."""
         try:
             self.motion.step(self.inputs, step_size)
         except Exception as error:      # what a solver says, in the log of the importer

@@ -13,14 +13,16 @@ NPZ, MARKET = "npz", "mtx"
 FORMATS = {"both": (NPZ, MARKET), NPZ: (NPZ,), MARKET: (MARKET,)}
 #: kinds in the order in which a case states them
 _KINDS = "mass", "damping", "stiffness", "loss"
+_GIVEN = "# Terms, what they are multiplied by, and units are as they were given; freedoms.csv says what each row is.\n"
+_SLIDING = """# SI units. 'times' holds while contacts and their forces stay as they are at {speed:.6g} rad/s:
+# elsewhere, export another state. freedoms.csv says what each row is; rows.npz holds the rows of inputs and sensors.
+"""
 _HEAD = """# {about}
-# Written by 'brakechain export matrices' from {source}. SI units. Run it with
+# Written by 'brakechain export matrices' from {source}. Run it with
 #
 #   brakechain run {name}.yaml
 #
-# 'times' holds while contacts and their forces stay as they are at {speed:.6g} rad/s: elsewhere, export another state.
-# freedoms.csv says what each row is; rows.npz holds the rows of inputs and sensors.
-
+{notes}
 chain: matrices
 title: {title}
 description: {description}
@@ -62,7 +64,9 @@ def _write(path, matrix, suffix):
 
 def _case(system, name, source, names, suffix):
     """The YAML of the case; values in SI."""
+    source = " ".join(source.split())
     text = [_HEAD.format(about=system.about[0].upper() + system.about[1:], source=source, name=name, speed=system.speed,
+                         notes=_SLIDING.format(speed=system.speed) if system.rows else _GIVEN,
                          title=json.dumps(f"{name.replace('_', ' ')}, as matrices"),
                          description=json.dumps(f"{system.about}, from {source}"))]
     for kind in _KINDS:
@@ -72,5 +76,5 @@ def _case(system, name, source, names, suffix):
                  + (f", times: {json.dumps(t.times)}" if t.times != "1" else "") + "}\n" for t in members]
     speeds = ", ".join(f"{speed!r} rad/s" for speed in system.speeds or (system.speed,))
     text.append(f"\nmatrix_modes:\n  speeds: [{speeds}]\n  friction: {system.friction!r}\n"
-                f"  frequency_max: {system.highest!r} Hz\n  map_friction: [0, 0.5, 1, 1.5]\n")
+                f"  frequency_max: {system.highest!r} Hz\n  map_friction: {[*system.map_friction]}\n")
     return "".join(text)

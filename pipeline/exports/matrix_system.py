@@ -20,8 +20,8 @@ class MatrixSystem:
     """NamedMatrix ``terms`` that hold at ``speed`` rad/s; ``about``: what they are; ``highest`` Hz that is of interest.
 
     ``freedoms``: (columns, rows (n,)) of a table with one row for each degree of freedom; ``rows`` {name: (r, n)} of
-    the inputs and sensors with their names; ``speeds`` at which modes are asked for, ``friction`` over that
-    of the terms.
+    the inputs and sensors with their names; ``speeds`` at which modes are asked for, ``friction`` and that of a
+    map over that of the terms.
     """
 
     terms: tuple
@@ -32,6 +32,7 @@ class MatrixSystem:
     rows: dict = field(default_factory=dict)
     speeds: tuple = ()
     friction: float = 1.0
+    map_friction: tuple = (0.0, 0.5, 1.0, 1.5)
 
 
 def is_given_as_matrices(folder):
@@ -70,7 +71,7 @@ def full_system(folder, wanted=None, solver="superlu"):
     about = sliding_as(full_model(structure, solver), state.about)
     return _about_state(state, terms_about(about, state.friction, state.settings),
                         f"full finite-element matrices, operating point {described(modes, operating)}",
-                        _nodes(structure, about.mass.shape[0]), about)
+                        _nodes(structure, about.mass.shape[0]), about, map_friction=(1.0,))
 
 
 def given_system(folder):
@@ -88,13 +89,13 @@ def given_system(folder):
                         (("row", "node", "direction"), freedoms), **known)
 
 
-def _about_state(state, terms, about, freedoms, model):
+def _about_state(state, terms, about, freedoms, model, **others):
     """MatrixSystem of ``terms`` about a SlidingState; a drive at rest has no terms that change with its speed."""
     rows = {"inputs": model.input_rows, "sensors": model.sensor_rows}
     rows = {name: each.toarray() if scipy.sparse.issparse(each) else np.asarray(each) for name, each in rows.items()}
     rows |= {"input_name": np.array(model.input_name, str), "sensor_name": np.array(model.sensor_name, str)}
     return MatrixSystem(terms, abs(state.about.speed) or 1.0, about, float(state.settings.frequency_max), freedoms,
-                        rows)
+                        rows, **others)
 
 
 def _nodes(structure, size):

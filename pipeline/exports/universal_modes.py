@@ -8,7 +8,6 @@ body.
 
 import numpy as np
 
-from pipeline.contract.received.files import write_new
 from pipeline.exports.run_products import refuse_existing
 
 #: meshio cell type -> descriptor of the linear element of universal files, its corners
@@ -26,8 +25,9 @@ def write_universal(modes, path, source):
     Raises ConfigError where the file exists.
     """
     refuse_existing(path)
-    sets = [_units(), _nodes(modes), _elements(modes), *(_mode(modes, k, source) for k in range(len(modes.root)))]
-    write_new(path, "".join(sets).encode("ascii", "replace"))
+    with open(path, "x", encoding="ascii", errors="replace", newline="\n") as file:
+        file.writelines((_units(), _nodes(modes), _elements(modes)))
+        file.writelines(_mode(modes, k, source) for k in range(len(modes.root)))
 
 
 def _set(kind, body):

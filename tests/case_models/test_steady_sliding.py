@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 
 from pipeline.case_models.effect_block import terms
-from pipeline.case_models.steady_sliding import branch_stiffness, mapped_friction, posed, refuse_twice
+from pipeline.case_models.steady_sliding import (
+    branch_stiffness,
+    mapped_friction,
+    posed,
+    refuse_twice,
+    sliding_friction,
+)
 from pipeline.contract import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.sliding.equilibrium import closure_response
@@ -106,3 +112,19 @@ def test_friction_of_a_map_is_read_at_one_distance():
     assert friction.distance == middle
     read = state(given.pressure, np.full(len(given.pressure), given.speed[0]))
     np.testing.assert_allclose(read.coefficient, table[:, 0, :2].mean(axis=1))
+
+
+def test_friction_of_the_map_of_the_settings_or_of_the_model():
+    settings = SimpleNamespace(sliding_distance=0.5, friction=0.3, friction_at_rest=None, decay_speed=0.01)
+    at, speed = np.full(2, 1e6), np.full(2, 1.0)
+    for given, expected in ((small_friction_map(), 0.5), (None, 0.3)):
+        friction, state = sliding_friction(given, None, settings)
+        assert state(at, speed).coefficient == pytest.approx(expected)
+        assert friction.at_speed(speed) == pytest.approx(expected)
+    law = SimpleNamespace(shear_pressure=np.array([1e5, 1e7]), shear_friction=np.array([0.4, 0.4]),
+                          shear_stiffness=np.array([1e9, 1e9]), shear_elastic_stiffness=np.array([1e9, 1e9]),
+                          shear_exponent=np.array([1.0, 1.0]))
+    _, state = sliding_friction(None, law, SimpleNamespace(**{**vars(settings), "friction": None}))
+    assert state(at, speed).coefficient == pytest.approx(0.4)
+    with pytest.raises(ConfigError, match="complex_modes.sliding_distance"):
+        sliding_friction(small_friction_map(), None, SimpleNamespace(**{**vars(settings), "sliding_distance": 2.0}))

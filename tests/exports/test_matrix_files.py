@@ -1,17 +1,26 @@
 """A system of matrices as files: the case beside them gives the roots of the run that it is from."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy
 
 import stages
 from pipeline.contract import ConfigError, Context, case, store
+from pipeline.decks import matrix_files
 from pipeline.exports.matrix_files import FORMATS, write_system
 from pipeline.exports.matrix_system import full_system, given_system, is_given_as_matrices, reduced_system
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.products import ComplexModes, Matrices, MatrixTerm
 from pipeline.recordings import registry
 from tests.exports.small_runs import written
+
+
+@pytest.fixture
+def quickly(monkeypatch):
+    """Files are read in this process instead of one process each; that is tested with the stage and below."""
+    monkeypatch.setattr("stages.matrices.read", lambda path, variable: matrix_files._opened(Path(path), variable))
 
 
 def ran(file, solved=True):
@@ -29,6 +38,7 @@ def unstable(run, operating, name="unstable_reduced"):
 
 
 @pytest.mark.exact
+@pytest.mark.usefixtures("quickly")
 def test_unstable_roots_of_a_brake_come_back(brake, tmp_path):
     """With gyroscopic, centrifugal and circulatory terms and loss factors as imaginary stiffness: to 1e-8."""
     given, solved = ran(write_system(reduced_system(brake, 3), tmp_path / "out", "a test"))
@@ -49,6 +59,7 @@ def test_both_formats_hold_the_same_numbers(brake, tmp_path):
 
 
 @pytest.mark.exact
+@pytest.mark.usefixtures("quickly")
 def test_unstable_roots_of_the_full_matrices_come_back(brake, tmp_path):
     """Those of complex_modes, to what these leave of their equation."""
     _, solved = ran(write_system(full_system(brake, 1), tmp_path / "full", "a test", FORMATS["npz"]))
@@ -68,6 +79,8 @@ def test_what_was_given_as_matrices_is_given_again(tmp_path):
         for name, (kind, times, _) in terms.items()}))
     assert is_given_as_matrices(run)
     case_file = write_system(given_system(run), tmp_path / "again", "a test", FORMATS["mtx"])
+    assert "units are as they were given" in case_file.read_text()
+    assert not (tmp_path / "again" / "rows.npz").exists()
     assert (tmp_path / "again" / "freedoms.csv").read_text() == "row,node,direction\n1,5,1\n2,5,3\n"
     given, _ = ran(case_file, solved=False)
     assert float(given.reference_speed) == 8.0
