@@ -5,6 +5,8 @@ from functools import cache
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.deck import FREE
+from pipeline.physics.fem.mesh import Mesh, boundary_faces, corners
 from pipeline.physics.fem.reference_cells import by_kind, cell_faces, padded
 
 #: corners, from 1, of the faces S1, S2, ... of Abaqus and CalculiX
@@ -36,6 +38,12 @@ def _surface(name, parts, mesh, labels, node_labels):
 
 def _faces(name, numbers, side, mesh, labels, node_labels):
     """Yield the nodes (f, v) of the faces ``side``, such as S3, of the elements ``numbers``."""
+    if side == FREE:
+        chosen = Mesh(mesh.node, mesh.element[np.isin(labels, numbers)], mesh.kind, mesh.cell)
+        outer = boundary_faces(mesh)
+        if len(chosen.element):
+            yield outer[_among(outer, boundary_faces(chosen))]
+        return
     if not side.startswith("S") or not side[1:].isdigit():
         if not side:
             yield rows_of(node_labels, numbers)[:, None]
@@ -47,6 +55,20 @@ def _faces(name, numbers, side, mesh, labels, node_labels):
             if not 1 <= int(side[1:]) <= count:
                 raise ConfigError(f"surface {name}", f"faces S1 to S{count} of {kind}", side)
             yield cells[chosen][:, _vertices(kind, int(side[1:]) - 1)]
+
+
+def _among(faces, others):
+    """(f,) True where faces have the corners of one of ``others``."""
+    keys = {tuple(sorted(row)) for row in corners(others)}
+    return np.array([tuple(sorted(row)) in keys for row in corners(faces)], bool)
+
+
+def faces_of(mesh, surface):
+    """(f, v) faces of a surface, which may be given by its nodes (k, 1): those of the boundary with no other nodes."""
+    if surface.shape[1] > 1:
+        return surface
+    outer = boundary_faces(mesh)
+    return outer[np.isin(outer, surface).all(axis=1)]
 
 
 @cache

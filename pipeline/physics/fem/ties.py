@@ -62,7 +62,7 @@ def tie(node, first, second, young, where):
     return Tie(rows.tocsr(), area[held], _STIFFNESS * young / size, float(share))
 
 
-def stiffness(ties, nodes):
+def tie_stiffness(ties, nodes):
     """(3 nodes, 3 nodes) CSR of the Ties of a body, alike in all directions."""
     total = scipy.sparse.csr_matrix((nodes, nodes))
     for each in ties:

@@ -8,7 +8,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from pipeline.physics.fem.mesh import block, boundary_faces, face_normals
 from pipeline.physics.fem.supports import free_modes
-from pipeline.physics.fem.ties import stiffness, tie
+from pipeline.physics.fem.ties import tie, tie_stiffness
 from tests.physics.fem.mixed_meshes import cut
 
 pytestmark = pytest.mark.exact
@@ -40,7 +40,7 @@ def matrices(node, blocks, held):
     for kind, element in blocks:
         parts = assemble(node, element, kind, np.zeros(len(element), int), [DENSITY], [isotropic(YOUNG, POISSON)])
         total = [a + b for a, b in zip(total, parts, strict=True)]
-    return total[0] + stiffness([held], len(node)), total[1]
+    return total[0] + tie_stiffness([held], len(node)), total[1]
 
 
 KINDS = [(("hexahedron20", 4), ("hexahedron20", 5)), (("hexahedron20", 5), ("tetra10", 4)),
@@ -67,14 +67,14 @@ def test_patch(below, above):
 
 def test_rigid_motions_cost_nothing_and_opening_does():
     node, blocks, held = halves()
-    matrix = stiffness([held], len(node))
+    matrix = tie_stiffness([held], len(node))
     x, y, z = node.T
     for motion in (0 * node + (1.0, 2.0, 3.0), np.column_stack((-y, x, 0 * z)), np.column_stack((z, 0 * y, -x))):
         moved = np.ravel(motion)
         assert abs(moved @ (matrix @ moved)) < 1e-12 * matrix.diagonal().max() * (moved @ moved)
     moved = np.outer(np.arange(len(node)) >= blocks[1][1].min(), (0, 0, 1.0)).ravel()
     assert moved @ (matrix @ moved) == pytest.approx(held.stiffness * 1e-4, rel=1e-9)
-    assert stiffness((), 4).nnz == 0
+    assert tie_stiffness((), 4).nnz == 0
 
 
 def test_modes_are_those_of_the_whole_bar():
