@@ -98,6 +98,15 @@ def surface_rows(node, face, point, weight, group, where="surface point", distan
                          (group.max() + 1, len(node)))
 
 
+def face_mean(node, face):
+    """(1, n) CSR: mean over the area of faces (f, v), which may be of several kinds."""
+    total = np.zeros(len(node))
+    for kind, _, cells in by_kind(face_kind(face), face):
+        area = face_points(node, cells)[1]
+        np.add.at(total, cells, area @ shape_functions(kind, quadrature(kind)[0])[0])
+    return scipy.sparse.csr_matrix(total / total.sum())
+
+
 def along(mean, direction):
     """(rows, 3n): means (rows, n) of the displacement component along ``direction`` (rows, 3)."""
     mean = mean.tocoo()
