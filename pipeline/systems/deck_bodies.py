@@ -84,9 +84,27 @@ def notes(parameters):
 
 
 def given(parameters):
-    """Values of disc, caliper, bracket and piston that files give and the case does not state, as in disc.young."""
-    return tuple(f"{body}.{key}" for body, section in from_files(parameters) if not body.startswith("pad")
-                 for key in from_file(section))
+    """Values of bodies that files give and the case does not state, as in disc.young or pad.lining_density."""
+    names = [f"{body}.{key}" for body, section in from_files(parameters) if not body.startswith("pad")
+             for key in from_file(section)]
+    pads = [section for body, section in from_files(parameters) if body == "pad_outer"]
+    return (*names, *(f"pad.{key}" for section in pads for key in _given_of_pad(section)))
+
+
+def _given_of_pad(pad):
+    """Values of the pads that the file of the outer one gives and the case does not state."""
+    body, stated = read(pad), set(pad.decided_by_statement())
+    known = {}
+    for part, rows in (("lining", _lining(body, pad)), ("backplate", ~_lining(body, pad))):
+        members = [body.materials[k] for k in np.unique(body.element_material[rows]) if k >= 0]
+        known[part, "density"] = any(material.density is not None for material in members)
+        known[part, "elastic"] = any(material.young is not None for material in members)
+    lined = any(key.startswith("lining_") and key != "lining_density" for key in stated)
+    for key in pad.of_material:
+        part = key.partition("_")[0]
+        what = "density" if key.endswith("density") else "elastic"
+        if known[part, what] and key not in stated and not (part == "lining" and what == "elastic" and lined):
+            yield key
 
 
 def measured(pad, mesh, ring):

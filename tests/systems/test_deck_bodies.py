@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
-from pipeline.physics.fem.elasticity import assemble, isotropic
+from pipeline.physics.fem.elasticity import assemble, isotropic, orthotropic
 from pipeline.physics.fem.mesh import revolve
 from pipeline.systems.deck_bodies import CONTACT, from_files, given, measured, named_mean, notes, pad_solid, solid
 from stages.structure import Caliper, Disc, Pad, Settings
@@ -56,6 +56,12 @@ def test_the_lining_by_its_material(tmp_path):
     made = pad_solid(section, 1)
     assert made.material_name == ("lining", "steel") and (made.element_material == 0).sum() == 5
     assert made.elasticity[0] == pytest.approx(isotropic(3e9, 0.2)) and made.density[0] == pytest.approx(2400)
+    assert given(Settings(pad=section)) == tuple(f"pad.lining_{key}" for key in (
+        "young_radial", "young_tangential", "young_normal", "poisson", "shear_normal", "shear_in_plane", "density"))
+    stated = section.model_copy(update={"lining_young_normal": 2e9})
+    assert given(Settings(pad=stated)) == ("pad.lining_density",)
+    assert pad_solid(stated, 1).elasticity[0] == pytest.approx(orthotropic(
+        (6e9, 6e9, 2e9), (0.2,) * 3, (1.2e9, 1.2e9, 2.5e9)))
     with pytest.raises(ConfigError, match="lining_set: expected .*: ALL, SOFT, LINING, RESIN, found 'felt'"):
         pad_solid(section.model_copy(update={"lining_set": "felt"}), 1)
 
