@@ -17,8 +17,8 @@ from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.mode_pairing import assurance, grouped, nearest_mixture, real
 from pipeline.physics.modal.model_updating import CLOSE, Test, update, with_errors
 from pipeline.products import ModalTest, ModelUpdate, ResponseFunctions
-from pipeline.systems.deck_bodies import given as given_by_files
 from pipeline.systems.disc_brake_rows import body_names
+from pipeline.systems.mesh_files.bodies import given as given_by_files
 
 #: share of a body by which nodes of a coarser mesh may lie off the points
 _ANYWHERE = 0.5

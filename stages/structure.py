@@ -15,9 +15,10 @@ from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
-from pipeline.systems.deck_bodies import from_files, given, notes
 from pipeline.systems.disc_brake import build
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
+from pipeline.systems.mesh_files.bodies import from_files, given, notes
+from pipeline.systems.mesh_files.springs import unread_springs
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
 _LAW_RANGE = 20
@@ -80,7 +81,8 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     rigid hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
     preload is static and frictionless. Real modes were computed below {frequency_max}.
     """
-    brake, said = build(settings), notes(settings)
+    brake = build(settings)
+    said = (*notes(settings), *unread_springs(settings))
     for note in said:
         context.log(note)
     free, *modes = _all_modes(brake, settings, context)

@@ -17,12 +17,12 @@ from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.groups import named_nodes
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
-from pipeline.systems.deck_bodies import pad_solid, solid
 from pipeline.systems.disc_brake_bracket import bracket
 from pipeline.systems.disc_brake_checks import clamped_radius, refuse_unfit
 from pipeline.systems.disc_brake_joints import joints, piston_rows
 from pipeline.systems.disc_brake_piston import FluidColumn, bore, fluid_column, piston
 from pipeline.systems.disc_brake_rows import body_names, contacts, pad_height, placed, sensor_rows
+from pipeline.systems.mesh_files.bodies import pad_solid, solid
 from pipeline.systems.solids import Assembly, Rows, Solid
 
 #: a mount counts as rigid when the web bends into it over less than this share of the clamped width
@@ -69,7 +69,7 @@ def _other(name, make, parameters):
 def disc(parameters):
     """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts.
 
-    From a file where one is named, with the materials of ``deck_materials``, held by its ``mount_group`` if stated.
+    From a file where one is named, with the materials of ``mesh_files``, held by its ``mount_group`` if stated.
     """
     p, where = parameters, "structure.disc.mount_group"
     if p.mesh_file:

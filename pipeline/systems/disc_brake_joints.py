@@ -14,7 +14,6 @@ import scipy
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import along, face_points, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces
-from pipeline.systems.deck_bodies import named_mean
 from pipeline.systems.disc_brake_piston import bore
 from pipeline.systems.disc_brake_rows import (
     CALIPER,
@@ -24,8 +23,11 @@ from pipeline.systems.disc_brake_rows import (
     body_names,
     faces_towards,
     pad_height,
+    placed,
     stacked,
 )
+from pipeline.systems.mesh_files.places import named_mean
+from pipeline.systems.mesh_files.springs import deck_springs
 from pipeline.systems.solids import Joints, Rows
 
 _AXES = {"radial": 0, "tangential": 1, "axial": 2}
@@ -47,29 +49,46 @@ class _Spot:
 
 
 def joints(meshes, parameters):
-    """All declared joints; ``loss_time`` is damping over stiffness, loss factors those of the kinds of joint."""
+    """All declared joints and the springs of decks; ``loss_time`` is damping over stiffness, loss factors those of the
+    kinds of joint, none of the springs of decks."""
+    parameters, j = placed(parameters, meshes), parameters.joints
+    springs = [spring for kind, made in _MADE.items() if kind not in j.left_out for spring in made(meshes, parameters)]
+    rows = [_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs]
+    names, stiffness, more = deck_springs(parameters, body_names(parameters), meshes)
+    loss = [getattr(j, f"{_kind(name)}_loss_factor") for name, *_ in springs] + [0.0] * len(names)
+    stiffness = np.array([each for _, each, *_ in springs] + list(stiffness), float)
+    parts = zip(*[part.parts for part in ((stacked(rows),) if rows else ()) + (more,)], strict=True)
+    return Joints((*(name for name, *_ in springs), *names), stiffness, stiffness * j.loss_time,
+                  Rows(tuple(scipy.sparse.vstack(each, format="csr") for each in parts)), np.array(loss))
+
+
+def _supports(meshes, parameters):
+    """Springs of guide pins, and of the ends of both pads in their abutments, end by end."""
     j, springs = parameters.joints, []
     for end, sign in (("leading", -1), ("trailing", 1)):
-        springs += _guide_pin(meshes, parameters, end, sign)
-        for name, pad in (("outer", OUTER), ("inner", INNER)):
+        if "guide_pin" not in j.left_out:
+            springs += _guide_pin(meshes, parameters, end, sign)
+        for name, pad in (("outer", OUTER), ("inner", INNER)) if "abutment" not in j.left_out else ():
             spot, guide = _backplate_end(meshes, parameters, pad, sign)
             held = j.abutment_stiffness if end == "trailing" else j.clip_stiffness
             springs += [(f"abutment_{name}_{end}_tangential", held, spot, guide, "tangential"),
-                      (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, guide, "radial")]
-    springs += _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
-                        list(_clamping_spots(meshes, parameters, "finger", OUTER)))
+                        (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, guide, "radial")]
+    return springs
+
+
+def _fingers(meshes, parameters):
+    j = parameters.joints
+    return _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
+                    list(_clamping_spots(meshes, parameters, "finger", OUTER)))
+
+
+def _on_inner_pad(meshes, parameters):
+    """Springs of the piston, or of the housing without a piston body, on the inner backplate."""
+    j = parameters.joints
     if parameters.piston.kind == "body":
-        springs += _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters))
-        springs += _seal(meshes, parameters)
-    else:
-        springs += _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
-                            list(_clamping_spots(meshes, parameters, "piston", INNER)))
-    if parameters.bracket.kind == "body":
-        springs += _mounts(meshes, parameters)
-    name, stiffness, *_ = zip(*springs, strict=True)
-    rows = stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
-    loss = np.array([getattr(j, f"{_kind(each)}_loss_factor") for each in name])
-    return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows, loss)
+        return _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters))
+    return _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
+                    list(_clamping_spots(meshes, parameters, "piston", INNER)))
 
 
 def _kind(name):
@@ -135,7 +154,9 @@ def _on_bracket(meshes, parameters, sign, radius, height, size, name):
 
 
 def _mounts(meshes, parameters):
-    """Springs to the knuckle on the backs of both columns, a bolt of two spots on each."""
+    """Springs of a bracket to the knuckle on the backs of both columns, a bolt of two spots on each."""
+    if parameters.bracket.kind != "body":
+        return []
     b, j, index = parameters.bracket, parameters.joints, body_names(parameters).index("bracket")
     offset, springs = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS), []
     for end, sign in (("leading", -1), ("trailing", 1)):
@@ -169,7 +190,9 @@ def _rim_spots(meshes, parameters):
 
 
 def _seal(meshes, parameters):
-    """Springs of the seal between piston and bore, at four places around it."""
+    """Springs of the seal between a piston body and its bore, at four places around it."""
+    if parameters.piston.kind != "body":
+        return []
     p, j, index = parameters.piston, parameters.joints, body_names(parameters).index("piston")
     (first, last), half, floor = bore(parameters)
     middle, rim = j.clamping_radius, p.diameter / 2
@@ -248,3 +271,8 @@ def _relative(meshes, first, other, axis):
     if other is not None:
         row[other.body] = -along(other.mean, np.eye(3)[[axis]])
     return row
+
+
+#: kind of joint -> its springs [(name, stiffness, spot, the other spot or None, axis)]
+_MADE = {"guide_pin or abutment": _supports, "finger": _fingers, "piston": _on_inner_pad, "seal": _seal,
+         "mount": _mounts}

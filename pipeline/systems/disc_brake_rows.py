@@ -9,7 +9,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import along, face_points, nearest_faces, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces, face_kind, face_normals
 from pipeline.physics.fem.reference_cells import by_kind
-from pipeline.systems.deck_bodies import CONTACT, measured
+from pipeline.systems.mesh_files.bodies import CONTACT, measured
 from pipeline.systems.solids import Contacts, Rows
 
 DISC, OUTER, INNER, CALIPER = range(4)

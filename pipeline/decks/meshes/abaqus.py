@@ -13,6 +13,8 @@ from pipeline.decks.meshes.keywords import blocks, number
 _SOLID = re.compile(r"C3D(\d+)[A-Z]*")
 #: rows of the nodes of C3D27 (centre, then the middles of faces 1 to 6) in the order of meshio
 _TWENTYSEVEN = (*range(20), 26, 24, 23, 25, 21, 22, 20)
+#: springs by their number of nodes
+_SPRINGS = {"SPRING1": 1, "SPRING2": 2, "SPRINGA": 2}
 #: keywords that make or move nodes and elements: without them the mesh would be another one
 _GENERATORS = {"NGEN", "NCOPY", "NFILL", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "IMPERFECTION", "SUBMODEL"}
 #: keywords that say nothing of the body
@@ -56,6 +58,9 @@ def _element(block, parts):
     if solid and int(solid[1]) not in BY_COUNT:
         raise ConfigError(block.where, "C3D20, C3D27, C3D10 or C3D15, with R, H and the like", kind_name,
                           "mesh with hexahedra, tetrahedra or wedges of second order")
+    if kind_name in _SPRINGS and not draft.scope:
+        _spring_elements(block, kind_name, parts)
+        return
     first = []
     for where, values in _records(block, int(solid[1]) if solid else None):
         label, *nodes = [whole(text, where) for text in values] if solid else [whole(values[0], where)]
@@ -67,6 +72,30 @@ def _element(block, parts):
         draft.unread[f"*ELEMENT of type {kind_name}"] += len(first)
     if "ELSET" in block.given:
         draft.element_sets.setdefault(block.given["ELSET"].upper(), []).extend(first)
+
+
+def _spring_elements(block, kind, parts):
+    """Keep springs by their set; their nodes may be written as INSTANCE.NUMBER."""
+    held = parts.current.spring_elements.setdefault(block.given.get("ELSET", "").upper(), [])
+    for where, (label, *nodes) in block.rows:
+        ends = [number for text in filter(None, nodes) for number in parts.members(text, "nodes", block, where)]
+        if len(ends) != _SPRINGS[kind]:
+            raise ConfigError(where, f"{_SPRINGS[kind]} nodes of an element of type {kind}", f"{len(ends)}")
+        held.append((whole(label, where), kind, ends))
+
+
+def _spring(block, parts):
+    """Stiffness of a set of springs, in the last line; degrees of freedom before it, which SPRINGA has not."""
+    name, draft = block.need("ELSET").upper(), parts.current
+    if draft.scope or {"NONLINEAR", "COMPLEX STIFFNESS", "ORIENTATION"} & set(block.given):
+        draft.unread["*SPRING that is nonlinear, complex, oriented or of a part"] += 1
+        return
+    *before, last = block.rows or [(block.where, [""])]
+    freedoms = tuple(whole(text, where) - 1 for where, fields in before[:1] for text in fields if text)
+    if not set(freedoms) <= {0, 1, 2}:
+        raise ConfigError(block.where, "degrees of freedom 1, 2 or 3 of *SPRING", str([f + 1 for f in freedoms]),
+                          "springs of rotations have no place on solid elements")
+    draft.spring_values[name] = freedoms, number(last[1][0], last[0])
 
 
 def _records(block, count):
@@ -142,4 +171,4 @@ def _tie(block, parts):
 
 
 _HANDLERS = {"NODE": _node, "ELEMENT": _element, "NSET": _set("NSET"), "ELSET": _set("ELSET"), "SURFACE": _surface,
-             "TIE": _tie, "INCLUDE": lambda block, parts: None}
+             "TIE": _tie, "SPRING": _spring, "INCLUDE": lambda block, parts: None}

@@ -80,7 +80,8 @@ class Parts:
     def _assembly(self, block):
         """Sets of the assembly belong to the whole; its nodes are reference points, whose numbers stand for no body."""
         shared = {key: getattr(self.whole, key) for key in (
-            "materials", "unread", "notes", "ties", "node_sets", "element_sets", "surfaces")}
+            "materials", "unread", "notes", "ties", "node_sets", "element_sets", "surfaces",
+            "spring_elements", "spring_values")}
         self.current = self.points = Draft(self.whole.where, **shared)
         for draft in self.drafts.values():
             known = [*draft.label, *(n for rows in draft.elements.values() for n, _ in rows)]

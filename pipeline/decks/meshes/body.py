@@ -11,7 +11,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import following, read_lines
 from pipeline.decks.meshes import abaqus, ansys, groups, nastran
 from pipeline.physics.fem.mesh import Mesh
-from pipeline.physics.fem.mesh_file import check, read_mesh, unchecked
+from pipeline.physics.fem.mesh_file import LENGTH, check, read_mesh, unchecked
 
 #: ending of a deck -> its reader; meshio reads all others
 READERS = {".inp": abaqus.read, ".cdb": ansys.read, **dict.fromkeys((".bdf", ".nas", ".fem"), nastran.read)}
@@ -27,7 +27,8 @@ class MeshedBody:
     the file says none, and ``notes``: sentences on what the file holds and was not read.
 
     Named groups, in capitals: ``node_sets`` and ``element_sets`` {name: rows of the mesh}, ``surfaces`` {name: (f, v)
-    nodes of faces, or (k, 1) nodes}; ``ties`` ((name, faces (f, v), faces (g, w)), ...) between parts of the body.
+    nodes of faces, or (k, 1) nodes}; ``ties`` ((name, faces (f, v), faces (g, w)), ...) between parts of the body;
+    ``springs``: all Springs [N/m] of the deck, with rows of the mesh as nodes, -1 for nodes of others.
     """
 
     mesh: Mesh
@@ -38,6 +39,7 @@ class MeshedBody:
     element_sets: dict = field(default_factory=dict)
     surfaces: dict = field(default_factory=dict)
     ties: tuple = ()
+    springs: tuple = ()
 
 
 def read_body(path, units="SI", sets=()):
@@ -76,7 +78,7 @@ def _read(path, units, sets, state):
     return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes + notes,
                       {name: groups.rows_of(nodes, numbers) for name, numbers in deck.node_sets.items()},
                       {name: groups.rows_of(labels, numbers) for name, numbers in deck.element_sets.items()},
-                      surfaces, ties)
+                      surfaces, ties, _springs(deck, nodes, LENGTH[units] * _UNITS[units][0]))
 
 
 @lru_cache(maxsize=2)
@@ -101,6 +103,16 @@ def _chosen(deck, sets, where):
         kept = np.union1d(kept, members)
     chosen = [(kind, np.isin(numbers, kept), numbers, rows) for kind, numbers, rows in deck.blocks]
     return [(kind, numbers[of], rows[of]) for kind, of, numbers, rows in chosen if of.any()]
+
+
+def _springs(deck, labels, force):
+    """Springs of the deck in N/m, at rows of ``labels`` (n,), ascending; ``force``: N/m of its unit of stiffness."""
+    order, made = np.argsort(labels), []
+    for spring in deck.springs:
+        place = np.minimum(np.searchsorted(labels, spring.nodes, sorter=order), len(labels) - 1)
+        rows = np.where(labels[order[place]] == spring.nodes, order[place], -1)
+        made.append(replace(spring, nodes=tuple(int(row) for row in rows), stiffness=force * spring.stiffness))
+    return tuple(made)
 
 
 def _ties(deck, mesh, surfaces):

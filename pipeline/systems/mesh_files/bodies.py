@@ -4,15 +4,14 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
-from pipeline.physics.fem.face_averages import face_mean
 from pipeline.physics.fem.mesh import Mesh, boundary_faces, face_normals
 from pipeline.physics.fem.reference_cells import by_kind, mirrored_vertices, padded
 from pipeline.physics.fem.ties import tie
-from pipeline.systems.deck_materials import from_file, lining, materials, read
+from pipeline.systems.mesh_files.materials import from_file, lining, materials, read
+from pipeline.systems.mesh_files.places import PLACES
 from pipeline.systems.solids import Solid
 
 #: groups of a pad: faces on the disc, nodes of the lining
@@ -23,13 +22,6 @@ _RECESS = 0.05
 _FACING = 0.99
 #: section of the brake -> material that a file does not name
 NAMES = {"disc": "cast iron", "caliper": "ductile iron", "bracket": "nodular iron", "piston": "steel"}
-_ENDS, _LEVELS = ("LEADING", "TRAILING"), ("INNER", "OUTER")
-#: names of groups that say where a joint acts
-_PLACES = {"PRESSED", "SEAL", "PISTON_RIM", *(f"PISTON_RIM_{45 * k}" for k in range(8)), *(
-    f"SEAL_{place}" for place in _ENDS + _LEVELS), *(f"ABUTMENT_{level}" for level in _LEVELS)} | {
-    f"{kind}_{end}{last}" for end in _ENDS for kind, words in (
-        ("FINGER", _LEVELS), ("PISTON", _LEVELS), ("MOUNT", _LEVELS), ("GUIDE_PIN", ("FRONT", "REAR")),
-        ("ABUTMENT_INNER", ()), ("ABUTMENT_OUTER", ())) for last in ("", *(f"_{word}" for word in words))}
 #: rows of the strains that change their sign in a mirror image in z
 _MIRROR = np.array([1, 1, 1, -1, -1, 1.0])
 
@@ -78,9 +70,21 @@ def notes(parameters):
             found = materials(held, section, NAMES[body], f"structure.{body}")[2]
         said += [f"{body}: {note}" for note in (*held.notes, *found)]
         said += [f"{body}: tie {name} holds unlike meshes together" for name, *_ in held.ties]
-        places = [name for name, rows in (held.node_sets | held.surfaces).items() if len(rows) and name in _PLACES]
+        places = [name for name, rows in (held.node_sets | held.surfaces).items() if len(rows) and name in PLACES]
         said += [f"{body}: joints act at its groups {', '.join(sorted(places))}"] * bool(places)
     return tuple(dict.fromkeys(said))
+
+
+def bodies_of_decks(parameters):
+    """{file: {body: MeshedBody}} of the bodies that come from mesh files; a mirror image has no place in its deck."""
+    decks = {}
+    for body, section in from_files(parameters):
+        held, mirror = _pad_body(section, -1 if body == "pad_inner" else 1) if body.startswith("pad") else (
+            read(section), False)
+        inner = body == "pad_inner" and section.inner_mesh_file
+        if not mirror:
+            decks.setdefault(section.inner_mesh_file if inner else section.mesh_file, {})[body] = held
+    return decks
 
 
 def given(parameters):
@@ -114,21 +118,6 @@ def measured(pad, mesh, ring):
     return pad.model_copy(update={
         "inner_radius": radius.min(), "outer_radius": radius.max(), "angle": 2 * np.abs(angle).max(),
         "lining_thickness": front - ring / 2, "backplate_thickness": back - front})
-
-
-def named_mean(mesh, name):
-    """(1, n) sparse: mean displacement of the group ``name`` of a mesh, of faces over their area; None without one.
-
-    A group without the last word of the name, as FINGER_LEADING, stands for all of those names.
-    """
-    for key in (name, name.rpartition("_")[0]):
-        group = (mesh.groups or {}).get(key.upper(), ())
-        if len(group) and group.shape[1] == 1:
-            return scipy.sparse.csr_matrix((np.full(len(group), 1 / len(group)), (np.zeros(len(group), int),
-                                                                                 group.ravel())), (1, len(mesh.node)))
-        if len(group):
-            return face_mean(mesh.node, group)
-    return None
 
 
 def _solid(body, row, table, names, damping, held, loss, where):

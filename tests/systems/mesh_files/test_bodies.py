@@ -9,7 +9,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
 from pipeline.physics.fem.elasticity import assemble, isotropic, orthotropic
 from pipeline.physics.fem.mesh import revolve
-from pipeline.systems.deck_bodies import CONTACT, from_files, given, measured, named_mean, notes, pad_solid, solid
+from pipeline.systems.mesh_files.bodies import CONTACT, from_files, given, measured, notes, pad_solid, solid
+from pipeline.systems.mesh_files.places import named_mean
 from stages.structure import Caliper, Disc, Pad, Settings
 from tests.decks.meshes.small_decks import IRON, abaqus
 from tests.physics.fem.mixed_meshes import cut
