@@ -70,6 +70,21 @@ def tie_stiffness(ties, nodes):
     return scipy.sparse.kron(total, scipy.sparse.identity(3), format="csr")
 
 
+def refuse_loose(mesh, ties, where):
+    """ConfigError at ``where`` for parts of a Mesh that neither nodes nor ``ties`` hold, where their surfaces miss."""
+    count, (cells, width) = len(mesh.node), mesh.element.shape
+    of_cells = scipy.sparse.csr_matrix((np.ones(cells * width), (np.repeat(np.arange(cells), width),
+                                                                 mesh.element.ravel())), (cells, count))
+    held = scipy.sparse.vstack([of_cells, *(abs(tie.rows) > 0 for tie in ties)], format="csr")
+    whole, part = scipy.sparse.csgraph.connected_components(scipy.sparse.bmat([[None, held], [held.T, None]]), False)
+    if whole > 1:
+        part = part[held.shape[0]:]
+        nodes = mesh.node[part != np.bincount(part).argmax()]
+        raise ConfigError(where, "ties that hold all parts of the body together", f"{len(nodes)} nodes about"
+                          f" {np.array2string(nodes.mean(axis=0), precision=4)} m that none holds",
+                          "let the surfaces of a tie meet there, or merge nodes")
+
+
 def _areas(node, kind, cells):
     """(f, q) areas of the quadrature points of faces of one kind."""
     local, weight = quadrature(kind)

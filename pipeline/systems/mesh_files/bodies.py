@@ -9,7 +9,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
 from pipeline.physics.fem.mesh import Mesh, boundary_faces, face_normals
 from pipeline.physics.fem.reference_cells import by_kind, mirrored_vertices, padded
-from pipeline.physics.fem.ties import tie
+from pipeline.physics.fem.ties import refuse_loose, tie
 from pipeline.systems.mesh_files.materials import from_file, lining, materials, read
 from pipeline.systems.mesh_files.places import PLACES
 from pipeline.systems.solids import Solid
@@ -60,7 +60,7 @@ def pad_solid(pad, side):
 
 def notes(parameters):
     """Sentences on the mesh files: what they hold and was not read, where materials come from, how ties meet."""
-    said = []
+    said, of_files = [], {}
     for body, section in from_files(parameters):
         if body.startswith("pad"):
             held, _ = _pad_body(section, 1 if body == "pad_outer" else -1)
@@ -68,11 +68,13 @@ def notes(parameters):
         else:
             held = read(section)
             found = materials(held, section, NAMES[body], f"structure.{body}")[2]
-        said += [f"{body}: {note}" for note in (*held.notes, *found)]
+        for note in held.notes:
+            of_files.setdefault(note, []).append(body)
+        said += [f"{body}: {note}" for note in found]
         said += [f"{body}: tie {name} holds unlike meshes together" for name, *_ in held.ties]
         places = [name for name, rows in (held.node_sets | held.surfaces).items() if len(rows) and name in PLACES]
         said += [f"{body}: joints act at its groups {', '.join(sorted(places))}"] * bool(places)
-    return tuple(dict.fromkeys(said))
+    return (*(f"{', '.join(bodies)}: {note}" for note, bodies in of_files.items()), *said)
 
 
 def bodies_of_decks(parameters):
@@ -125,6 +127,7 @@ def _solid(body, row, table, names, damping, held, loss, where):
     elasticity = np.array([material.elasticity() for material in table])
     stiffest = elasticity[:, :3, :3].max() if len(table) else 0.0
     ties = tuple(tie(mesh.node, first, second, stiffest, f"{where}: tie {name}") for name, first, second in body.ties)
+    refuse_loose(mesh, ties, where)
     return Solid(mesh, row, tuple(names), np.array([material.density for material in table]), elasticity, damping, held,
                  loss, ties)
 

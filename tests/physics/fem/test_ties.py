@@ -1,14 +1,16 @@
 """Tied unlike meshes: uniform stress passes, a bar of two meshes stretches and vibrates as one, surfaces that miss."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, isotropic
-from pipeline.physics.fem.mesh import block, boundary_faces, face_normals
+from pipeline.physics.fem.mesh import Mesh, block, boundary_faces, face_normals
 from pipeline.physics.fem.supports import free_modes
-from pipeline.physics.fem.ties import tie, tie_stiffness
+from pipeline.physics.fem.ties import refuse_loose, tie, tie_stiffness
 from tests.physics.fem.mixed_meshes import cut
 
 pytestmark = pytest.mark.exact
@@ -86,6 +88,25 @@ def test_modes_are_those_of_the_whole_bar():
                      [isotropic(YOUNG, POISSON)])
     expected, _ = free_modes(*plain, "superlu", 130e3, "bar")
     assert len(expected) == len(frequency) > 8 and frequency == pytest.approx(expected, rel=2e-3)
+
+
+def test_parts_that_a_tie_does_not_reach():
+    """Of two cubes beside each other, only one lies below the tied surface of a third one."""
+    line = 0.01 * np.linspace(0, 1, 3)
+    low, beside = block(line, line, line), block(line + 0.015, line + 0.015, line - 0.01)
+    high = block(*[0.01 * np.linspace(0, 1, 4)] * 2, np.array([0.01, 0.02]))
+    node = np.vstack([each.node for each in (low, beside, high)])
+    first = np.cumsum([0, len(low.node), len(beside.node)])
+    mesh = Mesh(node, np.vstack([each.element + f for each, f in zip((low, beside, high), first, strict=True)]),
+                low.kind, np.zeros((0, 3)))
+    under = np.vstack((faces(low, 2, 1), faces(beside, 2, 1, first[1])))
+    held = tie(node, faces(high, 2, -1, first[2]), under, YOUNG, "tie")
+    with pytest.raises(ConfigError, match="a pad: expected ties that hold all parts .* found 81 nodes about"):
+        refuse_loose(mesh, [held], "a pad")
+    joined = Mesh(node, mesh.element[[k for k in range(len(mesh.element)) if not 8 <= k < 16]], low.kind, mesh.cell)
+    used, compact = np.unique(joined.element, return_inverse=True)
+    kept = replace(held, rows=held.rows[:, used])
+    refuse_loose(Mesh(node[used], compact.reshape(joined.element.shape), low.kind, mesh.cell), [kept], "a pad")
 
 
 def test_surfaces_that_do_not_meet():
