@@ -107,7 +107,8 @@ def Quantities(unit, **bounds):  # noqa: N802
 
 
 #: names, of which one may be written without a list
-Names = Annotated[tuple[str, ...], BeforeValidator(lambda value: (value,) if isinstance(value, str) else value)]
+Names = Annotated[tuple[str, ...], BeforeValidator(lambda value: (value,) if isinstance(value, str) else value),
+                  WithJsonSchema({"type": ["string", "array"], "items": {"type": "string"}})]
 
 
 def OneOf(*sections):  # noqa: N802
