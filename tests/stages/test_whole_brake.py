@@ -94,6 +94,10 @@ def test_one_file_a_body(tmp_path):
     ({}, ("*ELSET, ELSET=LINING", "*ELSET, ELSET=FRICTION"), "structure.pad.lining_set: expected a set of elements, or"
      " a material, of the pad in the mesh file: .*found 'LINING'"),
     ({}, ("1., 0., 0., 0., 1., 0.", "1., 0., 0., 2., 0., 0."), "points that span a plane"),
+    ({}, ("*SOLID SECTION, ELSET=CALIPER, MATERIAL=NODULAR", "*DAMPING"), "structure.caliper: expected a material of"
+     " the ductile iron, found none of IRON, NODULAR, STEEL, RESIN on its elements; write a section"),
+    ({}, ("*SOLID SECTION, ELSET=OUTER_PLATE, MATERIAL=STEEL", "*DAMPING"), "structure.pad: expected a material of the"
+     " steel, found none of IRON"),
     ({"mesh_units": "mm-kg-ms"}, (), "declare mesh_units: mm-t-s"),
 ])
 def test_faults_are_named_with_their_remedy(tmp_path, changes, replaced, message):

@@ -40,6 +40,7 @@ class MeshedBody:
     surfaces: dict = field(default_factory=dict)
     ties: tuple = ()
     springs: tuple = ()
+    known: tuple = ()       # names of all materials of the deck
 
 
 def read_body(path, units="SI", sets=()):
@@ -78,7 +79,8 @@ def _read(path, units, sets, state):
     return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes + notes,
                       {name: groups.rows_of(nodes, numbers) for name, numbers in deck.node_sets.items()},
                       {name: groups.rows_of(labels, numbers) for name, numbers in deck.element_sets.items()},
-                      surfaces, ties, _springs(deck, nodes, LENGTH[units] * _UNITS[units][0]))
+                      surfaces, ties, _springs(deck, nodes, LENGTH[units] * _UNITS[units][0]),
+                      tuple(deck.materials))
 
 
 @lru_cache(maxsize=2)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
 from pipeline.decks.meshes.material import Material
 
@@ -34,10 +35,15 @@ def materials(body, parameters, name, where, complete=None):
     ``body``: MeshedBody; ``parameters``: section with young, poisson and density, of which those that the case states
     go before those of the file, and those that neither states are the defaults of the section; ``name``: of a material
     that the file does not give; ``where``: the section, for the sentences; ``complete``: what gives a material all its
-    values, that of one with young, poisson and density by default, or ``lining``.
+    values, that of one with young, poisson and density by default, or ``lining``. Raises ConfigError for a deck with
+    materials of which the body has none, and the case states none.
     """
     complete = complete or _completed
     stated = set(parameters.decided_by_statement())
+    if body.known and not body.materials and not _stated_at_all(stated, name):
+        raise ConfigError(where, f"a material of the {name}", f"none of {', '.join(body.known)} on its elements",
+                          "write a section of them in the deck, such as *SOLID SECTION, or state its modulus, Poisson's"
+                          " ratio and density in the case")
     rest = (body.element_material < 0).any()
     members = [*body.materials, *[Material(name)] * bool(rest)]
     row = np.where(body.element_material < 0, len(body.materials), body.element_material)
@@ -67,6 +73,11 @@ def _completed(material, parameters, stated, where):
     else:
         said.append(f"{material.name}: direction-dependent constants of the file")
     return completed, tuple(said)
+
+
+def _stated_at_all(stated, name):
+    """Whether the case states a value of a material, of pads with the names of its layer."""
+    return any(key.startswith("lining_") == (name == "lining") for key in stated)
 
 
 def lining(material, pad, stated, where):

@@ -53,7 +53,7 @@ def test_dimensions_are_those_of_the_mesh(tmp_path):
 def test_the_lining_by_its_material(tmp_path):
     section = pad(tmp_path / "a.inp", more="*ELSET, ELSET=SOFT, GENERATE\n1, 5\n*SOLID SECTION, ELSET=SOFT,"
                   " MATERIAL=RESIN\n*MATERIAL, NAME=RESIN\n*ELASTIC\n3000., 0.2\n*DENSITY\n2.4e-9\n",
-                  lining_set="resin")
+                  lining_set="resin", backplate_density="7820 kg/m^3")
     made = pad_solid(section, 1)
     assert made.material_name == ("lining", "steel") and (made.element_material == 0).sum() == 5
     assert made.elasticity[0] == pytest.approx(isotropic(3e9, 0.2)) and made.density[0] == pytest.approx(2400)
