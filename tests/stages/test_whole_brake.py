@@ -1,5 +1,7 @@
 """A whole brake from one Abaqus deck, linings and backplates of unlike meshes, beside the program's own."""
 
+from operator import attrgetter
+
 import numpy as np
 import pytest
 
@@ -13,8 +15,10 @@ from stages.complex_modes import complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
 from stages.structure import Caliper, Disc, Joints, Pad, Settings, structure
+from tests.decks.meshes.small_decks import abaqus
 from tests.stages.brake_deck import SETS, deck, meshes
 from tests.stages.test_structure import friction_map
+from tests.systems.test_disc_brake_bracket import BODIES
 
 pytestmark = pytest.mark.exact
 #: two modes of this brake are unstable
@@ -138,3 +142,20 @@ def test_a_case_is_checked_before_anything_is_computed(tmp_path):
         (tmp_path / "a.yaml").write_text(head + more)
         with pytest.raises(ConfigError, match=message):
             cases.load(tmp_path / "a.yaml", stages.CHAINS, stages.load)
+
+
+def test_bracket_and_piston_from_files_of_their_own(tmp_path):
+    """Their own meshes as decks: the same matrices, joints and line pressure as without files."""
+    settings = Settings(**BODIES)
+    native, changed = build(settings), {}
+    for name in ("bracket", "piston", "caliper"):
+        (tmp_path / f"{name}.inp").write_text(abaqus(native.bodies[native.names.index(name)].mesh))
+        changed[name] = getattr(settings, name).model_copy(update={
+            "mesh_file": tmp_path / f"{name}.inp", "mesh_units": "mm-t-s"})
+    made = build(Settings(**{**BODIES, **changed}))
+    assert made.names == native.names and made.joints.name == native.joints.name
+    for one, other in zip(made.bodies, native.bodies, strict=True):
+        assert abs(one.matrices()[0] - other.matrices()[0]).max() < 1e-6 * abs(other.matrices()[0]).max()
+    for rows in ("joints.rows", "piston"):
+        one, other = (attrgetter(rows)(brake).matrix for brake in (made, native))
+        assert abs(one - other).max() < 1e-6
