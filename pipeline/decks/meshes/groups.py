@@ -31,7 +31,9 @@ def surfaces(deck, mesh, labels, node_labels):
 
 
 def _surface(name, parts, mesh, labels, node_labels):
-    faces = [face for numbers, side in parts for face in _faces(name, numbers, side, mesh, labels, node_labels)]
+    sides = {side: np.concatenate([numbers for numbers, each in parts if each == side])
+             for side in dict.fromkeys(side for _, side in parts)}
+    faces = [face for side, numbers in sides.items() for face in _faces(name, numbers, side, mesh, labels, node_labels)]
     width = max((face.shape[1] for face in faces), default=1)
     return np.concatenate([padded(face, width) for face in faces]) if faces else np.empty((0, 1), int)
 
@@ -40,8 +42,8 @@ def _faces(name, numbers, side, mesh, labels, node_labels):
     """Yield the nodes (f, v) of the faces ``side``, such as S3, of the elements ``numbers``."""
     if side == FREE:
         chosen = Mesh(mesh.node, mesh.element[np.isin(labels, numbers)], mesh.kind, mesh.cell)
-        outer = boundary_faces(mesh)
         if len(chosen.element):
+            outer = boundary_faces(mesh)
             yield outer[_among(outer, boundary_faces(chosen))]
         return
     if not side.startswith("S") or not side[1:].isdigit():
