@@ -39,7 +39,7 @@ class Settings(Section):
 def _variants(sections):
     """The refined cases, each at one operating point, without a friction sweep, in the reduced model alone.
 
-    The mesh of a disc from a file cannot be refined here.
+    Meshes of disc and pads from files cannot be refined here.
     """
     settings, brake, modes = sections["convergence"], sections["structure"], sections["complex_modes"]
     pressure, speed = operating_point(settings, brake.pressures, modes.speeds)
@@ -47,9 +47,11 @@ def _variants(sections):
             "structure.free_frequency_max": _RIGID, **MODES_ALONE}
     changes = {CONTACT: _finer_contact(brake.pad, settings), PAD_MESH: _finer_pads(brake.pad),
                DISC_MESH: _finer_disc(brake.disc), BASES: _larger_bases(brake, sections["reduced_model"], settings)}
-    names = [name for name in settings.refinements if name != DISC_MESH or not brake.disc.mesh_file]
+    of_files = {name for name, part in ((DISC_MESH, brake.disc), (PAD_MESH, brake.pad)) if part.mesh_file}
+    names = [name for name in settings.refinements if name not in of_files]
     if not names:
-        raise ConfigError("convergence.refinements", "more than the mesh of a disc that comes from a file", DISC_MESH)
+        raise ConfigError("convergence.refinements", "more than meshes that come from files",
+                          ", ".join(settings.refinements))
     return {name: {**once, **changes[name]} for name in names}
 
 

@@ -17,8 +17,8 @@ from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.mode_pairing import assurance, grouped, nearest_mixture, real
 from pipeline.physics.modal.model_updating import CLOSE, Test, update, with_errors
 from pipeline.products import ModalTest, ModelUpdate, ResponseFunctions
-from pipeline.systems.deck_materials import from_file
 from pipeline.systems.disc_brake_rows import body_names
+from pipeline.systems.mesh_files.bodies import given as given_by_files
 
 #: share of a body by which nodes of a coarser mesh may lie off the points
 _ANYWHERE = 0.5
@@ -55,10 +55,10 @@ def stated(given):
     part = None if settings.body == "assembly" else settings.body
     values = named(settings.values, part)
     refuse_unknown(values, known_values(sections(settings)), where)
-    taken = [f"disc.{key}" for key in from_file(settings.disc) if f"disc.{key}" in values]
+    taken = [name for name in given_by_files(settings) if name in values]
     if taken:
         raise ConfigError(f"{where}.values", "values that the case states, from which the update begins",
-                          f"{', '.join(taken)} of the mesh file", "state them in the section of the disc")
+                          f"{', '.join(taken)} of the mesh file", "state them in the section of the body")
     if not any(part is None or name.startswith(f"{part}.") for name in values):
         raise ConfigError(f"{where}.values", f"values of {part or 'bodies and joints'} that may be off, such as"
                           f" {part or 'disc'}.young: {{spread: 0.05}}", "none")

@@ -8,15 +8,17 @@ import scipy
 
 from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
 from pipeline.case_models.bodies.brake_joints import Joints
-from pipeline.contract import Context, Quantities, Quantity, Section, option, stage
+from pipeline.case_models.bodies.mesh_files import BODIES, Units, with_deck
+from pipeline.contract import Context, InputFile, Names, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
 from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
-from pipeline.systems.deck_materials import DISC, from_file, notes
 from pipeline.systems.disc_brake import build
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
+from pipeline.systems.mesh_files.bodies import from_files, given, notes
+from pipeline.systems.mesh_files.springs import unread_springs
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
 _LAW_RANGE = 20
@@ -37,6 +39,10 @@ class LaserPoint(Section):
 class Settings(Section):
     """Geometry, materials, joints, meshes and preload."""
 
+    mesh_file: InputFile | None = option(None, "deck of several bodies, those of mesh_sets")
+    mesh_units: Units = option("SI", "units of this deck")
+    mesh_sets: dict[Literal[BODIES], Names] = option({}, "sets of elements, or instances, of this deck that are the"
+                                                     " disc, pad_outer, pad_inner, caliper, bracket and piston")
     disc: Disc = option(Disc(), "brake disc")
     pad: Pad = option(Pad(), "both pads")
     caliper: Caliper = option(Caliper(), "caliper")
@@ -51,11 +57,16 @@ class Settings(Section):
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "modes of all bodies below it")
     free_frequency_max: Quantity("Hz", gt=0) = option("4.5 kHz", "modes of the free disc below it")
 
+    @classmethod
+    def completed(cls, values):
+        """With the deck of several bodies under each of them."""
+        return with_deck(values)
+
 
 def _check(sections):
     """Refuse a mesh file that the brake cannot be built with before anything is computed."""
     settings = sections["structure"]
-    if settings.disc.mesh_file or settings.disc.mount_group:
+    if settings.disc.mount_group or from_files(settings):
         build(settings)
 
 
@@ -65,14 +76,15 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
 
     Method:
     Disc, pads, caliper, and bracket and piston where declared, were meshed with quadratic hexahedra (95 % of the
-    stiffness by 2 x 2 x 2 integration), unless the disc has the elements of a mesh file; joints between them are
-    springs and dampers. The disc is clamped where the bolts press it onto a rigid hub. The normal contact law follows
-    from the interface stiffness after {sliding_distance} of sliding; the preload is static and frictionless. Real modes
-    were computed below {frequency_max}.
+    stiffness by 2 x 2 x 2 integration), unless they have the elements of a mesh file, whose unlike meshes are tied by
+    mortar springs; joints between bodies are springs and dampers. The disc is clamped where the bolts press it onto a
+    rigid hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
+    preload is static and frictionless. Real modes were computed below {frequency_max}.
     """
-    brake, said = build(settings), notes(settings.disc, *DISC)
+    brake = build(settings)
+    said = (*notes(settings), *unread_springs(settings))
     for note in said:
-        context.log(f"disc: {note}")
+        context.log(note)
     free, *modes = _all_modes(brake, settings, context)
     bodies = {name: body_product(body, *results)
               for name, body, results in zip(brake.names, brake.bodies, modes, strict=True)}
@@ -80,7 +92,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
     return Structure(
-        body_name=brake.names, **bodies, others=others, disc_note=said, disc_given=from_file(settings.disc),
+        body_name=brake.names, **bodies, others=others, mesh_note=said, mesh_given=given(settings),
         free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],

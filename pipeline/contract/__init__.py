@@ -6,6 +6,7 @@ from pipeline.contract.product import Array, count, part, parts, product, quanti
 from pipeline.contract.settings import (
     InputFile,
     NamedFile,
+    Names,
     OneOf,
     Quantities,
     Quantity,
@@ -17,6 +18,6 @@ from pipeline.contract.settings import (
 )
 from pipeline.contract.stage import Products, Stage, Variants, stage
 
-__all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "NamedFile",
+__all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "NamedFile", "Names",
            "ProductError", "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count",
            "option", "part", "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]

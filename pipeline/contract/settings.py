@@ -50,8 +50,14 @@ class Section(BaseModel):
         """Without lists and mappings that are null but cannot be none: their defaults hold."""
         if not isinstance(values, dict):
             return values
+        values = cls.completed(values)
         return {key: value for key, value in values.items()
                 if value is not None or not _holds_many(cls.model_fields.get(key))}
+
+    @classmethod
+    def completed(cls, values):
+        """The written mapping of the section with what it stands for; ValueError for what is at odds. Here as it is."""
+        return values
 
     def decided_by_statement(self):
         """Names of the values that matter not only by their size but also by being stated in the case: none here."""
@@ -98,6 +104,11 @@ def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
 def Quantities(unit, **bounds):  # noqa: N802
     """A tuple of floats in ``unit``, each within ``bounds``; at least one."""
     return Annotated[tuple[Quantity(unit, **bounds), ...], Field(min_length=1)]
+
+
+#: names, of which one may be written without a list
+Names = Annotated[tuple[str, ...], BeforeValidator(lambda value: (value,) if isinstance(value, str) else value),
+                  WithJsonSchema({"type": ["string", "array"], "items": {"type": "string"}})]
 
 
 def OneOf(*sections):  # noqa: N802

@@ -7,7 +7,7 @@ radially outwards. A relative displacement is pad minus disc: positive normal op
 """
 
 from pipeline.products.beams import BeamGeometry, BeamOnBeam, MotionScatter
-from pipeline.products.bodies import Body, Incidence, ModelUpdate
+from pipeline.products.bodies import Body, Incidence, MeshTie, ModelUpdate
 from pipeline.products.diagnosis import (
     Bench,
     BenchRun,
@@ -68,7 +68,7 @@ from pipeline.products.systems.matrices import Matrices, MatrixModes, MatrixTerm
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "BenchStops", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "Countermeasures", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
+           "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "MeshTie", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Sensitivities", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

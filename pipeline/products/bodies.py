@@ -1,9 +1,21 @@
 """FE bodies and the rows that tie them, joint by joint and contact by contact; their update by a modal test."""
 
-from pipeline.contract import Array, count, product, quantity, text
+from pipeline.contract import Array, count, parts, product, quantity, text
 
 
-@product(version=2)
+@product(version=1)
+class MeshTie:
+    """Springs that hold two unlike meshes of one body together: relative means over the nodes of a surface."""
+
+    row: Array = count("entry", "row of the entry")
+    node: Array = count("entry", "node of the entry")
+    weight: Array = quantity("1", "entry", "weight; alike in all three directions")
+    area: Array = quantity("m^2", "tied", "area of the surface for which a row stands")
+    stiffness: Array = quantity("Pa/m", "", "stiffness per area, in each direction")
+    share: Array = quantity("1", "", "part of the first surface that meets the second")
+
+
+@product(version=3)
 class Body:
     """One elastic body: FE mesh, materials and real modes on its supports."""
 
@@ -20,6 +32,7 @@ class Body:
     frequency: Array = quantity("Hz", "mode", "natural frequencies of the body on its supports alone")
     shape: Array = quantity("1/kg^0.5", "mode nodes xyz", "mass-normalised mode shapes")
     supported: Array = count("support", "nodes held in all directions (rigid supports; none = empty)")
+    ties: dict[str, MeshTie] = parts("ties of unlike meshes of the body", empty=True)
 
 
 @product(version=1)

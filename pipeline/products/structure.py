@@ -4,7 +4,7 @@ from pipeline.contract import Array, count, part, parts, product, quantity, text
 from pipeline.products.bodies import Body, Incidence
 
 
-@product(version=5)
+@product(version=6)
 class Structure:
     """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
 
@@ -14,8 +14,8 @@ class Structure:
     pad_inner: Body = part("pad with backplate on the piston side, z < 0")
     caliper: Body = part("caliper with fingers and cylinder")
     others: dict[str, Body] = parts("bracket and piston, where they are bodies")
-    disc_note: Array = text("note", "mesh file of the disc: what it holds and was not read, where its materials come from; none without a file")
-    disc_given: Array = text("given", "values of the disc that its mesh file gives and the case does not state: young, poisson, density")
+    mesh_note: Array = text("note", "mesh files of the bodies: what they hold and was not read, where materials come from, their ties; none without a file")
+    mesh_given: Array = text("given", "values that mesh files give and the case does not state, as in disc.young")
     free_frequency: Array = quantity("Hz", "free_mode", "natural frequencies of the free disc, without rigid-body motions")
     free_diameters: Array = count("free_mode", "nodal diameters of the free-disc modes")
     free_out_of_plane: Array = quantity("1", "free_mode", "fraction of modal mass that moves along the axis")

@@ -17,11 +17,12 @@ from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.groups import named_nodes
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
-from pipeline.systems.deck_materials import DISC, materials, meshed
 from pipeline.systems.disc_brake_bracket import bracket
+from pipeline.systems.disc_brake_checks import clamped_radius, refuse_unfit
 from pipeline.systems.disc_brake_joints import joints, piston_rows
 from pipeline.systems.disc_brake_piston import FluidColumn, bore, fluid_column, piston
-from pipeline.systems.disc_brake_rows import body_names, contacts, pad_height, sensor_rows
+from pipeline.systems.disc_brake_rows import body_names, contacts, pad_height, placed, sensor_rows
+from pipeline.systems.mesh_files.bodies import pad_solid, solid
 from pipeline.systems.solids import Assembly, Rows, Solid
 
 #: a mount counts as rigid when the web bends into it over less than this share of the clamped width
@@ -45,10 +46,12 @@ def build(parameters):
 
     Raises ConfigError where parts intersect or do not meet.
     """
-    _check(parameters)
+    refuse_unfit(parameters)
     names, others = body_names(parameters), {"bracket": bracket, "piston": piston}
-    more = [others[name](parameters) for name in names if name in others]
-    bodies = (disc(parameters.disc), pad(parameters, +1), pad(parameters, -1), caliper(parameters), *more)
+    first = disc(parameters.disc), pad(parameters, +1), pad(parameters, -1)
+    parameters = placed(parameters, [body.mesh for body in first])
+    more = [_other(name, others[name], parameters) for name in names if name in others]
+    bodies = (*first, caliper(parameters), *more)
     meshes = [b.mesh for b in bodies]
     touching = contacts(meshes, parameters)
     sensors, position, direction = sensor_rows(meshes, parameters)
@@ -57,24 +60,32 @@ def build(parameters):
                      fluid_column(parameters))
 
 
+def _other(name, make, parameters):
+    """Solid of bracket or piston, from its file or as ``make`` meshes it."""
+    section = getattr(parameters, name)
+    return solid(section, name) if section.mesh_file else make(parameters)
+
+
 def disc(parameters):
     """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts.
 
-    From a file where one is named, with the materials of ``deck_materials``, held by its ``mount_group`` if stated.
+    From a file where one is named, with the materials of ``mesh_files``, held by its ``mount_group`` if stated.
     """
-    body = meshed(parameters, disc_mesh)
-    table, row, _ = materials(body, parameters, *DISC)
-    supported = (clamped_nodes(body.mesh, parameters, max(max(material.young) for material in table))
-                 if parameters.mount_group is None else
-                 named_nodes(body, parameters.mount_group, "structure.disc.mount_group"))
-    return Solid(body.mesh, row, tuple(m.name for m in table), np.array([m.density for m in table]),
-                 np.array([m.elasticity() for m in table]), parameters.damping_ratio, supported,
-                 np.full(len(table), float(parameters.loss_factor)))
+    p, where = parameters, "structure.disc.mount_group"
+    if p.mesh_file:
+        return solid(p, "disc", lambda body, table: named_nodes(body, p.mount_group, where) if p.mount_group else
+                     clamped_nodes(body.mesh, p, max(max(material.young) for material in table)))
+    if p.mount_group:
+        raise ConfigError(where, "a set of nodes or a surface of the mesh file: it has none", repr(p.mount_group))
+    mesh = disc_mesh(p)
+    return Solid(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([p.density]),
+                 isotropic(p.young, p.poisson)[None], p.damping_ratio, clamped_nodes(mesh, p),
+                 np.array([float(p.loss_factor)]))
 
 
 def disc_mesh(parameters):
     """Revolved section of web and ring, one cell across the web and one more across the ring."""
-    p, reach = parameters, _clamped_radius(parameters)
+    p, reach = parameters, clamped_radius(parameters)
     clamped = int(np.clip(round(p.web_cells * (reach - p.bore_radius) / (p.ring_inner_radius - p.bore_radius)),
                           1, p.web_cells - 1))
     web = np.r_[np.linspace(p.bore_radius, reach, clamped + 1),
@@ -94,7 +105,7 @@ def clamped_nodes(mesh, parameters, young=None):
     the clamped width, else the mount is no rigid support (ConfigError). ``young``: E, by default the stated
     one.
     """
-    p, reach = parameters, _clamped_radius(parameters)
+    p, reach = parameters, clamped_radius(parameters)
     face = boundary_faces(mesh)
     normal, middle = face_normals(mesh.node, face)
     bottom = (normal[:, 2] < -0.99) & (np.hypot(middle[:, 0], middle[:, 1]) < reach)
@@ -110,15 +121,11 @@ def clamped_nodes(mesh, parameters, young=None):
     return np.unique(face[bottom])
 
 
-def _clamped_radius(parameters):
-    """Outer radius of the pressure cones of the bolts where they reach the hub."""
-    p = parameters
-    return p.bolt_circle_radius + p.bolt_head_radius + p.web_thickness * np.tan(np.pi / 6)
-
-
 def pad(parameters, side):
     """Lining on the disc face of ``side`` (+1 outer, -1 inner) and its steel backplate; patches divide the mesh."""
     p, face = parameters.pad, parameters.disc.ring_thickness / 2
+    if p.mesh_file:
+        return pad_solid(p, side)
     radius = np.linspace(p.inner_radius, p.outer_radius, p.patches_radial * p.cells_per_patch + 1)
     angle = np.linspace(-p.angle / 2, p.angle / 2, p.patches_angular * p.cells_per_patch + 1)
     depth = face + np.r_[np.linspace(0, p.lining_thickness, p.lining_layers + 1),
@@ -137,6 +144,8 @@ def pad(parameters, side):
 def caliper(parameters):
     """C-shaped caliper: fingers above the outer pad, bridge over the rim, housing below the inner pad."""
     p, height = parameters.caliper, pad_height(parameters)
+    if p.mesh_file:
+        return solid(p, "caliper")
     front, back = -height - p.piston_gap, height
     edges = [[p.inner_radius, p.bridge_inner_radius], [-p.angle / 2, p.angle / 2], [front - p.housing_depth, front]]
     counts = p.radial_cells, p.angular_cells, p.housing_cells
@@ -170,27 +179,3 @@ def _within(recess, radius, angle, middle, front):
     r, a = ((line[:-1] + line[1:]) / 2 for line in (radius, angle))
     across = (r > first) & (r < last)
     return across[:, None, None] & (abs(a) < half)[:, None] & ((middle > floor) & (middle < front))
-
-
-def _check(parameters):
-    d, p, c = parameters.disc, parameters.pad, parameters.caliper
-    rules = (
-        (d.bore_radius < d.ring_inner_radius < d.ring_outer_radius, "disc", "bore < ring inner < ring outer radius",
-         f"{d.bore_radius:g}, {d.ring_inner_radius:g}, {d.ring_outer_radius:g} m"),
-        (d.bore_radius < d.bolt_circle_radius and _clamped_radius(d) < d.ring_inner_radius, "disc.bolt_circle_radius",
-         "bolts whose pressure cones end between bore and ring", f"a clamped radius of {_clamped_radius(d):g} m"),
-        (0 < d.web_thickness < d.ring_thickness, "disc.web_thickness", "a web thinner than the ring",
-         f"{d.web_thickness:g} of {d.ring_thickness:g} m"),
-        (p.inner_radius < p.outer_radius, "pad", "inner < outer radius", f"{p.inner_radius:g}, {p.outer_radius:g} m"),
-        (d.ring_inner_radius <= p.inner_radius and p.outer_radius <= d.ring_outer_radius, "pad",
-         f"pads that lie on the ring, {d.ring_inner_radius:g} to {d.ring_outer_radius:g} m",
-         f"{p.inner_radius:g} to {p.outer_radius:g} m"),
-        (c.bridge_inner_radius > d.ring_outer_radius, "caliper.bridge_inner_radius",
-         f"a bridge outside the disc, beyond {d.ring_outer_radius:g} m", f"{c.bridge_inner_radius:g} m: intersection"),
-        (c.inner_radius < c.bridge_inner_radius < c.bridge_outer_radius, "caliper",
-         "inner < bridge inner < bridge outer radius",
-         f"{c.inner_radius:g}, {c.bridge_inner_radius:g}, {c.bridge_outer_radius:g} m"),
-    )
-    for holds, where, expected, actual in rules:
-        if not holds:
-            raise ConfigError(f"structure.{where}", expected, actual)

@@ -2,7 +2,8 @@
 
 What is not meshed is a spring with a damper between two surface means: fingers and piston on the backplates, pads in
 their abutments, guide pins, seal, and the bolts of the bracket. Without a bracket, abutments and guide pins end on the
-ground; without a piston, its seal acts between housing and backplate.
+ground; without a piston, its seal acts between housing and backplate. In a mesh from a file, a group with the name of a
+joint says where it acts: FINGER_LEADING_INNER, or FINGER_LEADING for both its spots.
 """
 
 from dataclasses import dataclass
@@ -10,10 +11,23 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import along, face_points, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces
 from pipeline.systems.disc_brake_piston import bore
-from pipeline.systems.disc_brake_rows import CALIPER, INNER, OUTER, body_names, faces_towards, pad_height, stacked
+from pipeline.systems.disc_brake_rows import (
+    CALIPER,
+    INNER,
+    OUTER,
+    TOUCHING,
+    body_names,
+    faces_towards,
+    pad_height,
+    placed,
+    stacked,
+)
+from pipeline.systems.mesh_files.places import named_mean
+from pipeline.systems.mesh_files.springs import deck_springs
 from pipeline.systems.solids import Joints, Rows
 
 _AXES = {"radial": 0, "tangential": 1, "axial": 2}
@@ -35,29 +49,46 @@ class _Spot:
 
 
 def joints(meshes, parameters):
-    """All declared joints; ``loss_time`` is damping over stiffness, loss factors those of the kinds of joint."""
+    """All declared joints and the springs of decks; ``loss_time`` is damping over stiffness, loss factors those of the
+    kinds of joint, none of the springs of decks."""
+    parameters, j = placed(parameters, meshes), parameters.joints
+    springs = [spring for kind, made in _MADE.items() if kind not in j.left_out for spring in made(meshes, parameters)]
+    rows = [_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs]
+    names, stiffness, more = deck_springs(parameters, body_names(parameters), meshes)
+    loss = [getattr(j, f"{_kind(name)}_loss_factor") for name, *_ in springs] + [0.0] * len(names)
+    stiffness = np.array([each for _, each, *_ in springs] + list(stiffness), float)
+    parts = zip(*[part.parts for part in ((stacked(rows),) if rows else ()) + (more,)], strict=True)
+    return Joints((*(name for name, *_ in springs), *names), stiffness, stiffness * j.loss_time,
+                  Rows(tuple(scipy.sparse.vstack(each, format="csr") for each in parts)), np.array(loss))
+
+
+def _supports(meshes, parameters):
+    """Springs of guide pins, and of the ends of both pads in their abutments, end by end."""
     j, springs = parameters.joints, []
     for end, sign in (("leading", -1), ("trailing", 1)):
-        springs += _guide_pin(meshes, parameters, end, sign)
-        for name, pad in (("outer", OUTER), ("inner", INNER)):
+        if "guide_pin" not in j.left_out:
+            springs += _guide_pin(meshes, parameters, end, sign)
+        for name, pad in (("outer", OUTER), ("inner", INNER)) if "abutment" not in j.left_out else ():
             spot, guide = _backplate_end(meshes, parameters, pad, sign)
             held = j.abutment_stiffness if end == "trailing" else j.clip_stiffness
             springs += [(f"abutment_{name}_{end}_tangential", held, spot, guide, "tangential"),
-                      (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, guide, "radial")]
-    springs += _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
-                        list(_clamping_spots(meshes, parameters, "finger", OUTER)))
+                        (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, guide, "radial")]
+    return springs
+
+
+def _fingers(meshes, parameters):
+    j = parameters.joints
+    return _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
+                    list(_clamping_spots(meshes, parameters, "finger", OUTER)))
+
+
+def _on_inner_pad(meshes, parameters):
+    """Springs of the piston, or of the housing without a piston body, on the inner backplate."""
+    j = parameters.joints
     if parameters.piston.kind == "body":
-        springs += _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters))
-        springs += _seal(meshes, parameters)
-    else:
-        springs += _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
-                            list(_clamping_spots(meshes, parameters, "piston", INNER)))
-    if parameters.bracket.kind == "body":
-        springs += _mounts(meshes, parameters)
-    name, stiffness, *_ = zip(*springs, strict=True)
-    rows = stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
-    loss = np.array([getattr(j, f"{_kind(each)}_loss_factor") for each in name])
-    return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows, loss)
+        return _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters))
+    return _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
+                    list(_clamping_spots(meshes, parameters, "piston", INNER)))
 
 
 def _kind(name):
@@ -96,8 +127,9 @@ def _guide_pin(meshes, parameters, end, sign):
     pins = []
     for end_name, depth in depths.items():
         where = j.guide_pin_radius, front - depth, j.spot_size
-        spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, *where)
-        held = _on_bracket(meshes, parameters, sign, *where) if on_bracket else None
+        name = f"guide_pin_{end}_{end_name}"
+        spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, *where, name)
+        held = _on_bracket(meshes, parameters, sign, *where, name) if on_bracket else None
         pins += [(f"guide_pin_{end}_{kind}_{end_name}", stiffness / 2, spot, held, kind) for kind, stiffness in
                  (("axial", j.guide_pin_axial_stiffness), ("tangential", j.guide_pin_stiffness),
                   ("radial", j.guide_pin_stiffness))]
@@ -110,18 +142,21 @@ def _backplate_end(meshes, parameters, pad, sign):
     height = (1 if pad == OUTER else -1) * (parameters.disc.ring_thickness / 2 + p.lining_thickness
                                             + p.backplate_thickness / 2)
     where = (p.inner_radius + p.outer_radius) / 2, height, p.backplate_thickness / 2
-    held = _on_bracket(meshes, parameters, sign, *where) if parameters.bracket.kind == "body" else None
-    return _end_spot(meshes, pad, sign * p.angle / 2, *where), held
+    name = f"abutment_{'outer' if pad == OUTER else 'inner'}_{'leading' if sign < 0 else 'trailing'}"
+    held = _on_bracket(meshes, parameters, sign, *where, name) if parameters.bracket.kind == "body" else None
+    return _end_spot(meshes, pad, sign * p.angle / 2, *where, name), held
 
 
-def _on_bracket(meshes, parameters, sign, radius, height, size):
+def _on_bracket(meshes, parameters, sign, radius, height, size, name):
     """Spot on the face of a column of the bracket towards the pads."""
     index = body_names(parameters).index("bracket")
-    return _end_spot(meshes, index, sign * parameters.pad.angle / 2, radius, height, size)
+    return _end_spot(meshes, index, sign * parameters.pad.angle / 2, radius, height, size, name)
 
 
 def _mounts(meshes, parameters):
-    """Springs to the knuckle on the backs of both columns, a bolt of two spots on each."""
+    """Springs of a bracket to the knuckle on the backs of both columns, a bolt of two spots on each."""
+    if parameters.bracket.kind != "body":
+        return []
     b, j, index = parameters.bracket, parameters.joints, body_names(parameters).index("bracket")
     offset, springs = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS), []
     for end, sign in (("leading", -1), ("trailing", 1)):
@@ -132,7 +167,7 @@ def _mounts(meshes, parameters):
             point = np.column_stack((along_r * np.cos(angle) - along_t * np.sin(angle),
                                      along_r * np.sin(angle) + along_t * np.cos(angle),
                                      np.full(len(along_r), -b.column_height)))
-            spot = _spot(meshes, index, point, "mount of the bracket")
+            spot = _spot(meshes, index, point, f"mount_{end}_{level}")
             springs += [(f"mount_{end}_{kind}_{level}", j.mount_stiffness / 2, spot, None, kind) for kind in _AXES]
     return springs
 
@@ -149,13 +184,15 @@ def _rim_spots(meshes, parameters):
         angle = 2 * np.pi * k / _RIM_SPOTS + turn
         point = np.column_stack((parameters.joints.clamping_radius + radius * np.cos(angle), radius * np.sin(angle),
                                  np.full(len(radius), -pad_height(parameters))))
-        places.append((f"{360 * k // _RIM_SPOTS}", *(_spot(meshes, body, point, "rim of the piston")
-                                                     for body in (INNER, index))))
+        place = f"{360 * k // _RIM_SPOTS}"
+        places.append((place, *(_spot(meshes, body, point, f"piston_rim_{place}") for body in (INNER, index))))
     return places
 
 
 def _seal(meshes, parameters):
-    """Springs of the seal between piston and bore, at four places around it."""
+    """Springs of the seal between a piston body and its bore, at four places around it."""
+    if parameters.piston.kind != "body":
+        return []
     p, j, index = parameters.piston, parameters.joints, body_names(parameters).index("piston")
     (first, last), half, floor = bore(parameters)
     middle, rim = j.clamping_radius, p.diameter / 2
@@ -164,7 +201,7 @@ def _seal(meshes, parameters):
     for place, x, y, wall in (("outer", rim, 0, (last, 0)), ("trailing", 0, rim, (middle, middle * np.tan(half))),
                               ("inner", -rim, 0, (first, 0)), ("leading", 0, -rim, (middle, -middle * np.tan(half)))):
         spots = [_spot(meshes, body, np.column_stack((np.full(_SPOT_POINTS, a), np.full(_SPOT_POINTS, b), height)),
-                       f"seal, {place}") for body, a, b in ((index, middle + x, y), (CALIPER, *wall))]
+                       f"seal_{place}") for body, a, b in ((index, middle + x, y), (CALIPER, *wall))]
         springs += [(f"seal_{kind}_{place}", stiffness / 4, *spots, kind) for kind, stiffness in
                     (("axial", j.piston_stiffness), ("tangential", j.seal_stiffness), ("radial", j.seal_stiffness))]
     return springs
@@ -173,6 +210,9 @@ def _seal(meshes, parameters):
 def _pressed(meshes, parameters):
     """(crown of the piston, floor of the bore below it): what the fluid presses on."""
     index, floor = body_names(parameters).index("piston"), bore(parameters)[2]
+    named = [named_mean(meshes[body], "pressed") for body in (index, CALIPER)]
+    if all(mean is not None for mean in named):
+        return _Spot(index, named[0]), _Spot(CALIPER, named[1])
     crown = faces_towards(meshes[index], -1)
     point, area = (a.reshape(-1, *a.shape[2:]) for a in face_points(meshes[index].node, crown))
     below, group = np.column_stack((point[:, :2], np.full(len(point), floor))), np.zeros(len(point), int)
@@ -181,11 +221,11 @@ def _pressed(meshes, parameters):
                                         "structure.piston: floor of the bore")))
 
 
-def _end_spot(meshes, body, angle, radius, height, size):
-    """Spot on the plane end of a body at ``angle``, centred on (radius, height)."""
+def _end_spot(meshes, body, angle, radius, height, size, name):
+    """Spot of a joint on the plane end of a body at ``angle``, centred on (radius, height)."""
     offset = np.linspace(-size / 2, size / 2, _SPOT_POINTS)
     r, z = (a.ravel() for a in np.meshgrid(radius + offset, height + offset))
-    return _spot(meshes, body, np.column_stack((r * np.cos(angle), r * np.sin(angle), z)), "end face")
+    return _spot(meshes, body, np.column_stack((r * np.cos(angle), r * np.sin(angle), z)), name)
 
 
 def _clamping_spots(meshes, parameters, prefix, pad):
@@ -200,15 +240,28 @@ def _clamping_spots(meshes, parameters, prefix, pad):
             x, y = (a.ravel() for a in np.meshgrid(
                 j.clamping_radius + across * j.clamping_height / 2 + offset,
                 forward * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
-            spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix} {end} {level}")
+            spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix}_{end}_{level}")
                      for body, z in ((pad, back), (CALIPER, caliper)))
             yield f"{end}_{level}", *spots
 
 
-def _spot(meshes, body, point, where):
-    mean = surface_rows(meshes[body].node, boundary_faces(meshes[body]), point, np.ones(len(point)),
-                        np.zeros(len(point), int), f"structure.joints: {where}")
-    return _Spot(body, mean)
+def _spot(meshes, body, point, name):
+    """Spot of the joint ``name``: the group of that name in a mesh from a file, else at points (p, 3)."""
+    mesh, of_file = meshes[body], meshes[body].groups is not None
+    mean = named_mean(mesh, name) if of_file else None
+    if mean is not None:
+        return _Spot(body, mean)
+    try:
+        return _Spot(body, surface_rows(mesh.node, boundary_faces(mesh), point, np.ones(len(point)),
+                                        np.zeros(len(point), int), f"structure.joints: {name}",
+                                        TOUCHING if of_file else 1e-6))
+    except ConfigError as error:
+        if not of_file:
+            raise
+        part = ("disc", "outer pad", "inner pad", "caliper", "bracket or piston")[min(body, 4)]
+        raise ConfigError(f"structure.joints: {name}", f"a group {name.upper()} in the mesh of the {part}, or its place"
+                          " there as the case states dimensions", error.found, "name a surface or a set of nodes"
+                          f" {name.upper()} in the mesh file") from None
 
 
 def _relative(meshes, first, other, axis):
@@ -218,3 +271,8 @@ def _relative(meshes, first, other, axis):
     if other is not None:
         row[other.body] = -along(other.mean, np.eye(3)[[axis]])
     return row
+
+
+#: kind of joint -> its springs [(name, stiffness, spot, the other spot or None, axis)]
+_MADE = {"guide_pin or abutment": _supports, "finger": _fingers, "piston": _on_inner_pad, "seal": _seal,
+         "mount": _mounts}

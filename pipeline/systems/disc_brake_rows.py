@@ -1,13 +1,20 @@
 """Contact patches and sensors of the disc brake as displacement rows, and the numbers of its bodies."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import scipy
 
-from pipeline.physics.fem.face_averages import along, face_points, surface_rows
-from pipeline.physics.fem.mesh import boundary_faces, face_normals
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.fem.face_averages import along, face_points, nearest_faces, surface_rows
+from pipeline.physics.fem.mesh import boundary_faces, face_kind, face_normals
+from pipeline.physics.fem.reference_cells import by_kind
+from pipeline.systems.mesh_files.bodies import CONTACT, measured
 from pipeline.systems.solids import Contacts, Rows
 
 DISC, OUTER, INNER, CALIPER = range(4)
+#: faces of lining and disc touch where they are nearer than so many m
+TOUCHING = 1e-4
 
 
 def body_names(parameters):
@@ -19,6 +26,16 @@ def body_names(parameters):
 def pad_height(parameters):
     """Distance of the back of the backplates from the middle plane of the disc."""
     return parameters.disc.ring_thickness / 2 + parameters.pad.lining_thickness + parameters.pad.backplate_thickness
+
+
+def placed(parameters, meshes):
+    """``parameters`` with the dimensions of the pads as their mesh has them, where it is of a file."""
+    if meshes[OUTER].groups is None:
+        return parameters
+    names = ("disc", "pad", "caliper", "bracket", "piston", "joints", "sensors")
+    sections = {name: getattr(parameters, name) for name in names if hasattr(parameters, name)}
+    return SimpleNamespace(**sections | {"pad": measured(parameters.pad, meshes[OUTER],
+                                                         parameters.disc.ring_thickness)})
 
 
 def contacts(meshes, parameters):
@@ -40,18 +57,46 @@ def contacts(meshes, parameters):
 def _pad_patches(meshes, parameters, pad):
     """Body, centroids, areas and the (contacts, nodes) means on pad and disc of one pad, patches or single points."""
     p, mesh = parameters.pad, meshes[pad]
-    face = faces_towards(mesh, -1 if pad == OUTER else 1)
-    point, area = (a.reshape(-1, *a.shape[2:]) for a in face_points(mesh.node, face, p.contact_points))
-    radius, angle = np.hypot(point[:, 0], point[:, 1]), np.arctan2(point[:, 1], point[:, 0])
-    across = np.floor((radius - p.inner_radius) / (p.outer_radius - p.inner_radius) * p.patches_radial)
-    along = np.floor((angle / p.angle + 0.5) * p.patches_angular)
-    group = (along * p.patches_radial + across).astype(int) if p.contact_points is None else np.arange(len(point))
+    face = mesh.groups[CONTACT] if mesh.groups else faces_towards(mesh, -1 if pad == OUTER else 1)
+    point, area = _points(mesh.node, face, p.contact_points)
+    group = _patches(point, p, mesh.node[np.unique(face)]) if p.contact_points is None else np.arange(len(point))
     total = np.bincount(group, area)
     centre = np.stack([np.bincount(group, area * x) for x in point.T], axis=1) / total[:, None]
     rows = surface_rows(mesh.node, face, point, area, group, "structure.pad: contact face")
-    opposite = faces_towards(meshes[DISC], 1 if pad == OUTER else -1)
-    met = surface_rows(meshes[DISC].node, opposite, point, area, group, "structure.pad: contact with the disc")
-    return np.full(len(total), pad), centre, total, rows, met
+    return np.full(len(total), pad), centre, total, rows, _on_disc(meshes[DISC], pad, point, area, group)
+
+
+def _points(node, face, count):
+    """Points (p, 3) and areas (p,) on faces, which may be of several kinds."""
+    parts = [face_points(node, cells, count) for _, _, cells in by_kind(face_kind(face), face)]
+    return tuple(np.concatenate([each[k].reshape(-1, *each[k].shape[2:]) for each in parts]) for k in (0, 1))
+
+
+def _patches(point, p, node):
+    """(n,) number of the patch that each point lies in; ``node`` (k, 3) of the contact face, which patches divide."""
+    radius, angle, ends = np.hypot(*point[:, :2].T), np.arctan2(point[:, 1], point[:, 0]), np.hypot(*node[:, :2].T)
+    half = np.abs(np.arctan2(node[:, 1], node[:, 0])).max()
+    across = np.floor((radius - ends.min()) / np.ptp(ends) * p.patches_radial)
+    along = np.floor((angle / half + 1) / 2 * p.patches_angular)
+    group = np.clip(along, 0, p.patches_angular - 1) * p.patches_radial + np.clip(across, 0, p.patches_radial - 1)
+    return np.unique(group, return_inverse=True)[1].ravel()
+
+
+def _on_disc(disc, pad, point, area, group):
+    """(contacts, nodes) means on the disc; ConfigError where the points do not lie on it."""
+    side = 1 if pad == OUTER else -1
+    face = faces_towards(disc, side)
+    try:
+        return surface_rows(disc.node, face, point, area, group, "structure.pad: contact with the disc", TOUCHING)
+    except ConfigError:
+        off = nearest_faces(disc.node, face, point, TOUCHING)[0] < 0
+        height, radius = side * point[off, 2], np.hypot(*point[off, :2].T)
+        raise ConfigError(
+            f"structure: contact of the {('outer', 'inner')[pad != OUTER]} pad with the disc", "a lining whose face"
+            f" lies on the ring, within {TOUCHING * 1e3:g} mm", f"{off.mean():.0%} of it off the disc, at heights of"
+            f" {height.min():.5g} to {height.max():.5g} m from its middle plane and radii of {radius.min():.4g} to"
+            f" {radius.max():.4g} m; the disc ends at {(side * disc.node[np.unique(face), 2]).max():.5g} m",
+            "move one of them so that they meet, and check radii, angles and units") from None
 
 
 def sensor_rows(meshes, parameters):

@@ -6,11 +6,12 @@ import numpy as np
 import scipy
 
 from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.fem.ties import Tie
 from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.reduction.body import ElasticBody, rotation
 from pipeline.physics.reduction.load_patterns import load_patterns
 from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
-from pipeline.products import Body, Incidence, PinOnDisc, Structure
+from pipeline.products import Body, Incidence, MeshTie, PinOnDisc, Structure
 
 #: material of friction linings
 LINING = "lining"
@@ -28,7 +29,20 @@ def body_product(solid, frequency=(), shape=None):
                 material_name=solid.material_name, density=solid.density, elasticity=solid.elasticity,
                 loss_factor=np.broadcast_to(solid.loss_factor, len(solid.density)), damping_ratio=solid.damping_ratio,
                 frequency=frequency,
-                shape=shape.T.reshape(count, len(mesh.node), 3), supported=solid.supported)
+                shape=shape.T.reshape(count, len(mesh.node), 3), supported=solid.supported,
+                ties={f"tie_{k}": _tie_product(tie) for k, tie in enumerate(solid.ties, 1)})
+
+
+def _tie_product(tie):
+    rows = tie.rows.tocoo()
+    return MeshTie(row=rows.row, node=rows.col, weight=rows.data, area=tie.area, stiffness=tie.stiffness,
+                   share=tie.share)
+
+
+def _ties(body):
+    """Ties of a Body."""
+    return tuple(Tie(scipy.sparse.csr_matrix((t.weight, (t.row, t.node)), (len(t.area), len(body.node))), t.area,
+                     float(t.stiffness), float(t.share)) for t in body.ties.values())
 
 
 def incidence(rows):
@@ -75,7 +89,8 @@ def elastic_body(system, name, patterns=None):
         supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
         turns=name == "disc", frequency=body.frequency[:count],
         modes=body.shape[:count].reshape(count, 3 * len(body.node)).T, patterns=patterns,
-        loss_factor=body.loss_factor, part=tuple(np.flatnonzero(np.asarray(body.material_name) == LINING)))
+        loss_factor=body.loss_factor, ties=_ties(body),
+        part=tuple(np.flatnonzero(np.asarray(body.material_name) == LINING)))
 
 
 def force_patterns(system, orders):

@@ -10,12 +10,13 @@ import scipy
 
 from pipeline.physics.fem.elasticity import assemble
 from pipeline.physics.fem.mesh import Mesh
+from pipeline.physics.fem.ties import tie_stiffness
 
 
 @dataclass(frozen=True)
 class Solid:
     """Mesh, material row of each element, material table, rigidly held nodes; ``loss_factor`` (materials,), none by
-    default."""
+    default; ``ties`` between parts of its mesh."""
 
     mesh: Mesh
     element_material: np.ndarray
@@ -25,11 +26,13 @@ class Solid:
     damping_ratio: float
     supported: np.ndarray
     loss_factor: np.ndarray | float = 0.0
+    ties: tuple = ()
 
     def matrices(self):
         """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
         mesh = self.mesh
-        return assemble(mesh.node, mesh.element, mesh.kind, self.element_material, self.density, self.elasticity)
+        matrices = assemble(mesh.node, mesh.element, mesh.kind, self.element_material, self.density, self.elasticity)
+        return (matrices[0] + tie_stiffness(self.ties, len(mesh.node)), matrices[1]) if self.ties else matrices
 
 
 @dataclass(frozen=True)

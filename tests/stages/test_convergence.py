@@ -41,7 +41,7 @@ def test_the_mesh_of_a_disc_from_a_file_is_not_refined(tmp_path):
     (tmp_path / "disc.inp").write_text("")
     brake = Brake.model_validate({"disc": {"mesh_file": str(tmp_path / "disc.inp")}})
     assert tuple(variants(brake)) == ("contact", "pad_mesh", "bases")
-    with pytest.raises(ConfigError, match="convergence.refinements: expected more than the mesh of a disc that comes"):
+    with pytest.raises(ConfigError, match="convergence.refinements: expected more than meshes that come from files"):
         variants(brake, refinements=("disc_mesh",))
 
 

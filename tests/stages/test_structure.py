@@ -114,13 +114,13 @@ def test_settings_without_unit_or_size_are_refused():
 def test_a_disc_from_a_deck(tmp_path, brake):
     """The own mesh as an Abaqus deck with its material: the same modes; what is not read stands in the product."""
     deck = abaqus(disc_mesh(COARSE["disc"]), more="*SOLID SECTION, ELSET=ALL, MATERIAL=IRON\n*MATERIAL, NAME=IRON\n"
-                  "*ELASTIC\n120000., 0.27\n*DENSITY\n7.2e-9\n*TIE\na, b\n")
+                  "*ELASTIC\n120000., 0.27\n*DENSITY\n7.2e-9\n*DAMPING, ALPHA=1.\n")
     (tmp_path / "disc.inp").write_text(deck)
     section = COARSE["disc"].model_copy(update={"mesh_file": tmp_path / "disc.inp", "mesh_units": "mm-t-s"})
     read = run(disc=section)
-    assert list(read.disc_given) == ["young", "poisson", "density"] and len(brake.disc_given) == 0
+    assert list(read.mesh_given) == ["disc.young", "disc.poisson", "disc.density"] and len(brake.mesh_given) == 0
     assert read.free_frequency == pytest.approx(brake.free_frequency, rel=1e-6)
-    assert read.disc_note[0] == "not read: *TIE" and len(read.disc_note) == 4 and len(brake.disc_note) == 0
+    assert read.mesh_note[0] == "disc: not read: *DAMPING" and len(read.mesh_note) == 4 and len(brake.mesh_note) == 0
 
 
 def test_a_faulty_deck_is_refused_before_anything_is_computed(tmp_path):

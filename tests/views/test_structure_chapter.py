@@ -33,5 +33,5 @@ def test_springs_of_one_kind_share_a_row():
 
 
 def test_notes_on_the_mesh_file_are_shown():
-    product = small.filled(type(small.structure()), disc_note=["not read: *TIE"])
-    assert chapter._mesh_notes(product) == ("Mesh file of the disc: not read: *TIE.",)
+    product = small.filled(type(small.structure()), mesh_note=["disc: not read: *TIE"])
+    assert chapter._mesh_notes(product) == ("Mesh file, disc: not read: *TIE.",)

@@ -1,11 +1,12 @@
 """Settings of the bodies of a disc brake: geometry, material, mesh."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
-from pipeline.contract import InputFile, Quantity, Section, option
+from pipeline.case_models.bodies.mesh_files import FromMesh
+from pipeline.contract import InputFile, Names, Quantity, Section, option
 
 
-class Disc(Section):
+class Disc(FromMesh):
     """Stepped disc, its mount and its mesh."""
 
     ring_inner_radius: Quantity("m", gt=0) = option("66.2 mm", "inner radius of the friction ring")
@@ -26,21 +27,17 @@ class Disc(Section):
     web_cells: int = option(4, "elements across the web, radially", ge=2)
     ring_cells: int = option(10, "elements across the ring, radially", ge=1)
     angular_cells: int = option(90, "elements around", ge=8)
-    mesh_file: InputFile | None = option(None, "mesh of quadratic hexahedra, tetrahedra or wedges to use instead, same"
-                                                " axes: deck of Abaqus, CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb)"
-                                                " with its materials, or what meshio reads")
-    mesh_units: Literal["SI", "mm-t-s", "mm-kg-ms"] = option("SI", "units of the mesh file and of its materials")
     mount_group: str | None = option(None, "set of nodes or surface of the mesh file that the hub holds rigidly; none ="
                                            " the inner face within the pressure cones of the bolts")
 
-    def decided_by_statement(self):
-        """Values that go before those of a mesh file only where the case states them."""
-        names = {"young", "poisson", "density"} & self.model_fields_set
-        return tuple(sorted(names)) if self.mesh_file else ()
 
+class Pad(FromMesh):
+    """Annular pad: orthotropic lining on a steel backplate; a mesh file is that of the outer pad."""
 
-class Pad(Section):
-    """Annular pad: orthotropic lining on a steel backplate."""
+    of_material: ClassVar[tuple] = (
+        *(f"lining_{name}" for name in ("young_radial", "young_tangential", "young_normal", "poisson", "shear_normal",
+                                        "shear_in_plane", "density")),
+        "backplate_young", "backplate_poisson", "backplate_density")
 
     inner_radius: Quantity("m", gt=0) = option("95 mm", "inner radius")
     outer_radius: Quantity("m", gt=0) = option("150 mm", "outer radius")
@@ -69,9 +66,13 @@ class Pad(Section):
     contact_points: int | None = option(None, "contact points per direction on each element face of the lining, which"
                                         " are its integration points; none = one contact for each patch, at its mean",
                                         ge=1)
+    lining_set: str = option("LINING", "set of elements, or material, of the mesh file that is the lining")
+    inner_mesh_file: InputFile | None = option(None, "mesh file of the inner pad, in the same units; none = that of the"
+                                                     " outer one, mirrored unless inner_mesh_sets are named")
+    inner_mesh_sets: Names = option((), "sets of elements of the file that are the inner pad")
 
 
-class Caliper(Section):
+class Caliper(FromMesh):
     """Floating caliper: fingers, bridge and solid housing."""
 
     inner_radius: Quantity("m", gt=0) = option("97 mm", "inner radius of fingers and housing")
@@ -98,7 +99,7 @@ class Ground(Section):
     kind: Literal["ground"] = "ground"
 
 
-class Bracket(Section):
+class Bracket(FromMesh):
     """Anchor bracket: columns beside the pads, joined under the inner pad and around the rim, bolted to the knuckle.
 
     Heights are distances from the middle plane of the disc.
@@ -145,7 +146,7 @@ class Seal(Section):
     kind: Literal["seal"] = "seal"
 
 
-class Piston(Section):
+class Piston(FromMesh):
     """Piston, a cup whose rim bears on the inner backplate, in the bore of the housing."""
 
     kind: Literal["body"] = "body"

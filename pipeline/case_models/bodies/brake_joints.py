@@ -1,5 +1,7 @@
 """Settings of the joints of a disc brake, and of its pads pressed on the disc at rest."""
 
+from typing import Literal
+
 from pipeline.contract import Quantity, Section, option
 
 
@@ -23,6 +25,8 @@ class Joints(Section):
                                                    " across the axis; along it piston_stiffness")
     mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket with the knuckle behind it,"
                                                     " each direction")
+    left_out: tuple[Literal["abutment", "finger", "piston", "guide_pin", "seal", "mount"], ...] = option(
+        (), "kinds of joints that the springs of a deck stand for instead")
     abutment_loss_factor: float = option(0.0, "loss factor of abutments and clips, in both directions", ge=0)
     finger_loss_factor: float = option(0.0, "loss factor of the fingers on the backplate", ge=0)
     piston_loss_factor: float = option(0.0, "loss factor of piston seal and piston on the backplate", ge=0)

@@ -17,8 +17,8 @@ class Materials:
     """What the keywords of materials have said so far."""
 
     current: str = ""       # name of the material that *ELASTIC and *DENSITY belong to
-    orientations: dict = field(default_factory=dict)    # name -> axes (3, 3), or the sentence why there are none
-    sections: list = field(default_factory=list)        # (Block, set of elements, material, orientation or "")
+    orientations: dict = field(default_factory=dict)    # (part, name) -> axes (3, 3), or why there are none
+    sections: list = field(default_factory=list)        # (part, Block, set of elements, material, orientation or "")
 
     def takes(self, block, draft):
         """Whether ``block`` is one of these keywords, which is then read into the draft or kept."""
@@ -29,22 +29,24 @@ class Materials:
         handler(block, draft)
         return True
 
-    def leave(self, draft):
+    def leave(self, draft, parts):
         """Give the draft its sections; ConfigError for sets, materials and orientations that nothing defines."""
-        for block, name, material, orientation in self.sections:
-            for kind, each, known in (("a set of elements", name, draft.element_sets),
-                                      ("a material", material, draft.materials),
-                                      ("an orientation", orientation, {"": 0, **self.orientations})):
+        for scope, block, name, material, orientation in self.sections:
+            sets = parts.draft(scope).element_sets
+            for kind, each, known in (("a set of elements", name, sets), ("a material", material, draft.materials),
+                                      ("an orientation", (scope, orientation), {(scope, ""): 0, **self.orientations})):
                 if each not in known:
-                    raise ConfigError(block.where, f"{kind} that the deck defines", repr(each),
-                                      "define it, or include the file that does")
-            draft.sections.append((np.array(draft.element_sets[name], np.int64), material,
-                                   self._axes(block, draft.materials[material], orientation)))
+                    raise ConfigError(block.where, f"{kind} that the deck defines", repr(
+                        each if isinstance(each, str) else each[1]), "define it, or include the file that does")
+            axes = self._axes(block, draft.materials[material], (scope, orientation))
+            for first, turn in parts.copied(scope):
+                draft.sections.append((np.array(sets[name], np.int64) + first, material,
+                                       _turned(axes, turn, draft.materials[material])))
 
     def _axes(self, block, material, orientation):
         axes = self.orientations.get(orientation)
         if isinstance(axes, str) and material.young is not None and not material.isotropic:
-            raise ConfigError(block.where, "an orientation with fixed Cartesian axes", f"{orientation}, {axes}",
+            raise ConfigError(block.where, "an orientation with fixed Cartesian axes", f"{orientation[1]}, {axes}",
                               "give the material along fixed axes")
         return None if isinstance(axes, str) or material.isotropic else axes
 
@@ -87,18 +89,25 @@ class Materials:
         name, system = block.need("NAME").upper(), block.given.get("SYSTEM", "RECTANGULAR").upper()
         definition = block.given.get("DEFINITION", "COORDINATES").upper()
         if system not in ("RECTANGULAR", "R") or definition != "COORDINATES":
-            self.orientations[name] = f"whose system is {system} by {definition}"
+            self.orientations[draft.scope, name] = f"whose system is {system} by {definition}"
             return
         values = [number(text, block.rows[0][0], 0.0) for text in block.rows[0][1] if text] if block.rows else []
         if len(values) not in (6, 9):
             raise ConfigError(block.where, "two points, or three, of *ORIENTATION", f"{len(values)} numbers")
         turned = numbers(block.rows[1:2], 0, block.name)[1:2]
-        self.orientations[name] = ("which is turned by a further angle" if turned and turned[0] else
+        self.orientations[draft.scope, name] = ("which is turned by a further angle" if turned and turned[0] else
                                    _through(np.array(values + [0.0] * (9 - len(values))), block))
 
     def _section(self, block, draft):
-        self.sections.append((block, block.need("ELSET").upper(), block.need("MATERIAL").upper(),
+        self.sections.append((draft.scope, block, block.need("ELSET").upper(), block.need("MATERIAL").upper(),
                               block.given.get("ORIENTATION", "").upper()))
+
+
+def _turned(axes, turn, material):
+    """Axes (3, 3) of a material, None for those of the deck, in an instance that is turned by ``turn`` (3, 3)."""
+    if np.array_equal(turn, np.eye(3)) or material.young is None or material.isotropic:
+        return axes
+    return (np.eye(3) if axes is None else axes) @ turn.T
 
 
 def _through(values, block):

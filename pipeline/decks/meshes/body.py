@@ -11,7 +11,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import following, read_lines
 from pipeline.decks.meshes import abaqus, ansys, groups, nastran
 from pipeline.physics.fem.mesh import Mesh
-from pipeline.physics.fem.mesh_file import mesh_of, read_mesh
+from pipeline.physics.fem.mesh_file import LENGTH, check, read_mesh, unchecked
 
 #: ending of a deck -> its reader; meshio reads all others
 READERS = {".inp": abaqus.read, ".cdb": ansys.read, **dict.fromkeys((".bdf", ".nas", ".fem"), nastran.read)}
@@ -27,7 +27,8 @@ class MeshedBody:
     the file says none, and ``notes``: sentences on what the file holds and was not read.
 
     Named groups, in capitals: ``node_sets`` and ``element_sets`` {name: rows of the mesh}, ``surfaces`` {name: (f, v)
-    nodes of faces, or (k, 1) nodes}.
+    nodes of faces, or (k, 1) nodes}; ``ties`` ((name, faces (f, v), faces (g, w)), ...) between parts of the body;
+    ``springs``: all Springs [N/m] of the deck, with rows of the mesh as nodes, -1 for nodes of others.
     """
 
     mesh: Mesh
@@ -37,38 +38,95 @@ class MeshedBody:
     node_sets: dict = field(default_factory=dict)
     element_sets: dict = field(default_factory=dict)
     surfaces: dict = field(default_factory=dict)
+    ties: tuple = ()
+    springs: tuple = ()
+    known: tuple = ()       # names of all materials of the deck
 
 
-def read_body(path, units="SI"):
-    """MeshedBody of a file: a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), a .dat of one of
-    them, or what meshio reads.
+def read_body(path, units="SI", sets=()):
+    """MeshedBody of a file, or of the elements in ``sets`` of it, names of sets of elements.
 
-    ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for what cannot be read,
-    what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
+    A file is a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), a .dat of one of them, or what meshio
+    reads, of which the whole is taken. ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for
+    what cannot be read, what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
     """
     path = Path(path)
     files = (path, *following(path))
-    return _read(path, units, tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files))
+    state = tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files)
+    return _read(path, units, tuple(each.upper() for each in sets), state)
 
 
-@lru_cache(maxsize=2)
-def _read(path, units, _state):
-    """The body; ``_state`` of its files makes what changed read again."""
-    reader = _reader(path)
-    if reader is None:
+@lru_cache(maxsize=8)
+def _read(path, units, sets, state):
+    """The body; ``state`` of its files makes what changed read again."""
+    deck, where = _deck(path, state), f"mesh file {path}"
+    if deck is None and sets:
+        raise ConfigError(where, "a deck of Abaqus, Nastran or Ansys, of which sets of elements can be taken",
+                          path.suffix, "write a file for each body, or one deck of all")
+    if deck is None:
         mesh, named, notes = read_mesh(path, units)
         return MeshedBody(mesh, (), np.full(len(mesh.element), -1), notes, {},
                           {name: rows for name, rows in named.items() if rows.ndim == 1},
                           {name: faces for name, faces in named.items() if faces.ndim == 2})
-    deck, where = reader(path), f"mesh file {path}"
-    labels = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [np.empty(0, int)])
-    mesh, used = mesh_of(where, deck.node, [(kind, rows) for kind, _, rows in deck.blocks], units, labels)
-    materials, row = _materials(deck, labels)
+    blocks = _chosen(deck, sets, where)
+    labels = np.concatenate([numbers for _, numbers, _ in blocks] or [np.empty(0, int)])
+    mesh, used = unchecked(where, deck.node, [(kind, rows) for kind, _, rows in blocks], units)
     nodes = deck.label[used]
-    return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes,
+    surfaces = groups.surfaces(deck, mesh, labels, nodes)
+    ties, notes = _ties(deck, mesh, surfaces)
+    check(mesh, where + f", {' and '.join(sets)}" * bool(sets), labels, [faces for _, *faces in ties])
+    materials, row = _materials(deck, labels)
+    return MeshedBody(mesh, tuple(_in_si(where, material, units) for material in materials), row, deck.notes + notes,
                       {name: groups.rows_of(nodes, numbers) for name, numbers in deck.node_sets.items()},
                       {name: groups.rows_of(labels, numbers) for name, numbers in deck.element_sets.items()},
-                      groups.surfaces(deck, mesh, labels, nodes))
+                      surfaces, ties, _springs(deck, nodes, LENGTH[units] * _UNITS[units][0]),
+                      tuple(deck.materials))
+
+
+@lru_cache(maxsize=2)
+def _deck(path, _state):
+    """The deck; None for what meshio reads."""
+    reader = _reader(path)
+    return None if reader is None else reader(path)
+
+
+def _chosen(deck, sets, where):
+    """Blocks of the elements in ``sets``, all without any; ConfigError for sets without solid elements."""
+    if not sets:
+        return deck.blocks
+    kept = np.empty(0, np.int64)
+    solid = np.concatenate([numbers for _, numbers, _ in deck.blocks] or [kept])
+    for name in sets:
+        members = np.intersect1d(deck.element_sets.get(name, kept), solid)
+        if not len(members):
+            known = [each for each, numbers in deck.element_sets.items() if np.isin(numbers, solid).any()]
+            raise ConfigError(where, f"sets of solid elements, of {', '.join(known) or 'which it has none'}",
+                              repr(name), "name sets, or instances, of the file")
+        kept = np.union1d(kept, members)
+    chosen = [(kind, np.isin(numbers, kept), numbers, rows) for kind, numbers, rows in deck.blocks]
+    return [(kind, numbers[of], rows[of]) for kind, of, numbers, rows in chosen if of.any()]
+
+
+def _springs(deck, labels, force):
+    """Springs of the deck in N/m, at rows of ``labels`` (n,), ascending; ``force``: N/m of its unit of stiffness."""
+    order, made = np.argsort(labels), []
+    for spring in deck.springs:
+        place = np.minimum(np.searchsorted(labels, spring.nodes, sorter=order), len(labels) - 1)
+        rows = np.where(labels[order[place]] == spring.nodes, order[place], -1)
+        made.append(replace(spring, nodes=tuple(int(row) for row in rows), stiffness=force * spring.stiffness))
+    return tuple(made)
+
+
+def _ties(deck, mesh, surfaces):
+    """(ties between parts of the body, sentences on those with other bodies, which are not taken)."""
+    held, notes = [], []
+    for name, *pair in deck.ties:
+        faces = [groups.faces_of(mesh, surfaces[each]) for each in pair]
+        if all(map(len, faces)):
+            held.append((name, *faces))
+        elif any(map(len, faces)):
+            notes.append(f"not read: *TIE {name} with another body")
+    return tuple(held), tuple(notes)
 
 
 def _reader(path):

@@ -10,8 +10,23 @@ from pipeline.contract.errors import ConfigError
 #: solid elements by their number of nodes; bodies have some of them, and the refusal of the others names them
 BY_COUNT = {20: "hexahedron20", 27: "hexahedron27", 10: "tetra10", 15: "wedge15", 13: "pyramid13", 8: "hexahedron",
             4: "tetra", 6: "wedge", 5: "pyramid"}
+#: side of elements in a surface that has those of their faces that no other element has
+FREE = "FREE"
 #: largest number of a node or an element, and most of them in a range
 _LARGEST, _MOST = 10**15, 50_000_000
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A linear spring between two nodes, or of one to the ground, by their numbers or rows.
+
+    ``freedoms``: axis (0, 1, 2) of the displacement of each node; none = along the line through both.
+    """
+
+    name: str
+    nodes: tuple
+    freedoms: tuple
+    stiffness: float
 
 
 @dataclass(frozen=True)
@@ -21,7 +36,7 @@ class Deck:
     ``blocks`` [(kind, numbers (c,), rows of nodes (c, v) in the order of meshio)]; ``node_sets`` and ``element_sets``
     {name: numbers}; ``surfaces`` {name: ((numbers of elements, face as written), ...)}; ``materials`` {name: Material};
     ``sections`` ((numbers of elements, name of the material, axes (3, 3) or None), ...); ``notes``: sentences on what
-    was not read.
+    was not read; ``ties`` ((name, first surface, second surface), ...); ``springs`` (Spring, ...).
     """
 
     label: np.ndarray
@@ -33,11 +48,13 @@ class Deck:
     materials: dict
     sections: tuple
     notes: tuple
+    ties: tuple = ()
+    springs: tuple = ()
 
 
 @dataclass
 class Draft:
-    """What a reader has collected so far; ``where``: beginning of errors."""
+    """What a reader has collected so far; ``where``: beginning of errors; ``scope``: part that it is of."""
 
     where: str
     label: list = field(default_factory=list)
@@ -50,6 +67,10 @@ class Draft:
     sections: list = field(default_factory=list)
     unread: Counter = field(default_factory=Counter)    # keyword -> times
     notes: list = field(default_factory=list)
+    ties: list = field(default_factory=list)            # (where, name, first surface, second surface)
+    scope: str = ""
+    spring_elements: dict = field(default_factory=dict)     # set -> [(number, type, nodes)]
+    spring_values: dict = field(default_factory=dict)       # set -> (degrees of freedom from 1, stiffness)
 
     def add_element(self, kind, number, nodes):
         """A solid element; ``nodes``: numbers in the order of meshio."""
@@ -68,12 +89,35 @@ class Draft:
             raise ConfigError(self.where, "finite coordinates", f"others of node {bad}")
         order = np.argsort(label)
         blocks = [(kind, numbers, self._rows(label, order, numbers, nodes)) for kind, numbers, nodes in blocks]
+        springs = self._springs()
+        for name in set(self.spring_elements) - set(self.spring_values):
+            for _, kind, _ in self.spring_elements[name]:
+                self.unread[f"*ELEMENT of type {kind}"] += 1
         said = [f"{name} ({times} times)" if times > 1 else name for name, times in self.unread.items()]
         notes = [f"not read: {', '.join(said)}"] * bool(said) + self.notes
         sets = ({name: np.unique(np.array(list(each), np.int64)) for name, each in sets.items()}
                 for sets in (self.node_sets, self.element_sets))
         return Deck(label, position, blocks, *sets, self.surfaces, self.materials,
-                    tuple(self.sections), tuple(notes))
+                    tuple(self.sections), tuple(notes), tuple(self._tie(*each) for each in self.ties),
+                    springs)
+
+    def _springs(self):
+        """The Springs whose elements and stiffness the deck holds; what else there is of them counts as not read."""
+        springs = []
+        for name, (freedoms, stiffness) in self.spring_values.items():
+            for label, kind, nodes in self.spring_elements.get(name, ()):
+                springs.append(Spring(f"{name}_{label}".lower(), tuple(nodes), () if kind == "SPRINGA" else freedoms,
+                                      stiffness))
+        return tuple(springs)
+
+    def _tie(self, where, name, *surfaces):
+        """A tie; ConfigError for surfaces that nothing defines."""
+        for each in surfaces:
+            if each not in self.surfaces:
+                known = ", ".join(list(self.surfaces)[:8]) or "none"
+                raise ConfigError(where, f"surfaces that the deck defines: {known}", repr(each),
+                                  "define it, or include the file that does")
+        return name, *surfaces
 
     def _rows(self, label, order, numbers, nodes):
         """Rows of the nodes of elements among ``label``."""

@@ -5,6 +5,8 @@ from functools import cache
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.deck import FREE
+from pipeline.physics.fem.mesh import Mesh, boundary_faces, corners
 from pipeline.physics.fem.reference_cells import by_kind, cell_faces, padded
 
 #: corners, from 1, of the faces S1, S2, ... of Abaqus and CalculiX
@@ -29,13 +31,21 @@ def surfaces(deck, mesh, labels, node_labels):
 
 
 def _surface(name, parts, mesh, labels, node_labels):
-    faces = [face for numbers, side in parts for face in _faces(name, numbers, side, mesh, labels, node_labels)]
+    sides = {side: np.concatenate([numbers for numbers, each in parts if each == side])
+             for side in dict.fromkeys(side for _, side in parts)}
+    faces = [face for side, numbers in sides.items() for face in _faces(name, numbers, side, mesh, labels, node_labels)]
     width = max((face.shape[1] for face in faces), default=1)
     return np.concatenate([padded(face, width) for face in faces]) if faces else np.empty((0, 1), int)
 
 
 def _faces(name, numbers, side, mesh, labels, node_labels):
     """Yield the nodes (f, v) of the faces ``side``, such as S3, of the elements ``numbers``."""
+    if side == FREE:
+        chosen = Mesh(mesh.node, mesh.element[np.isin(labels, numbers)], mesh.kind, mesh.cell)
+        if len(chosen.element):
+            outer = boundary_faces(mesh)
+            yield outer[_among(outer, boundary_faces(chosen))]
+        return
     if not side.startswith("S") or not side[1:].isdigit():
         if not side:
             yield rows_of(node_labels, numbers)[:, None]
@@ -47,6 +57,20 @@ def _faces(name, numbers, side, mesh, labels, node_labels):
             if not 1 <= int(side[1:]) <= count:
                 raise ConfigError(f"surface {name}", f"faces S1 to S{count} of {kind}", side)
             yield cells[chosen][:, _vertices(kind, int(side[1:]) - 1)]
+
+
+def _among(faces, others):
+    """(f,) True where faces have the corners of one of ``others``."""
+    keys = {tuple(sorted(row)) for row in corners(others)}
+    return np.array([tuple(sorted(row)) in keys for row in corners(faces)], bool)
+
+
+def faces_of(mesh, surface):
+    """(f, v) faces of a surface, which may be given by its nodes (k, 1): those of the boundary with no other nodes."""
+    if surface.shape[1] > 1:
+        return surface
+    outer = boundary_faces(mesh)
+    return outer[np.isin(outer, surface).all(axis=1)]
 
 
 @cache

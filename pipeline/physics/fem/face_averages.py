@@ -40,6 +40,15 @@ def interpolation(node, face, point, where="surface point", distance=1e-6, slack
     ``distance`` [m] is how far off the surface a point may lie, ``slack`` how far beside its face, in sizes of the
     face; farther raises ConfigError.
     """
+    nearest, weight = nearest_faces(node, face, point, distance, slack)
+    if (nearest < 0).any():
+        raise ConfigError(where, "a point on the surface", f"{point[np.argmin(nearest)]} m, off it",
+                          "check radii, angles and heights")
+    return nearest, weight
+
+
+def nearest_faces(node, face, point, distance=1e-6, slack=_SLACK):
+    """As ``interpolation``, but with face -1 and weights 0 for points off the surface."""
     nearest, weight = np.full(len(point), -1), np.zeros((len(point), face.shape[1]))
     for kind, rows, cells in by_kind(face_kind(face), face):
         left = np.flatnonzero(nearest < 0)
@@ -47,9 +56,6 @@ def interpolation(node, face, point, where="surface point", distance=1e-6, slack
         on = at >= 0
         nearest[left[on]] = rows[at[on]]
         weight[left[on], :cells.shape[1]] = shape_functions(kind, local[on])[0]
-    if (nearest < 0).any():
-        raise ConfigError(where, "a point on the surface", f"{point[np.argmin(nearest)]} m, off it",
-                          "check radii, angles and heights")
     return nearest, weight
 
 
@@ -62,7 +68,7 @@ def _nearest(node, face, kind, point, distance, slack):
         missing = np.flatnonzero(nearest < 0)
         if not len(missing):
             break
-        inner, gap = _project(node[face[candidate[missing]]], kind, point[missing])
+        inner, gap = project(node[face[candidate[missing]]], kind, point[missing])
         inside = _inside(kind, inner, slack) & (gap < distance)
         nearest[missing[inside]] = candidate[missing[inside]]
         local[missing[inside]] = inner[inside]
@@ -92,6 +98,15 @@ def surface_rows(node, face, point, weight, group, where="surface point", distan
                          (group.max() + 1, len(node)))
 
 
+def face_mean(node, face):
+    """(1, n) CSR: mean over the area of faces (f, v), which may be of several kinds."""
+    total = np.zeros(len(node))
+    for kind, _, cells in by_kind(face_kind(face), face):
+        area = face_points(node, cells)[1]
+        np.add.at(total, cells, area @ shape_functions(kind, quadrature(kind)[0])[0])
+    return scipy.sparse.csr_matrix(total / total.sum())
+
+
 def along(mean, direction):
     """(rows, 3n): means (rows, n) of the displacement component along ``direction`` (rows, 3)."""
     mean = mean.tocoo()
@@ -109,7 +124,7 @@ def foundation(node, face, stiffness):
     return sum_blocks(blocks.reshape(-1, size, size), face, len(node))
 
 
-def _project(corner, kind, point):
+def project(corner, kind, point):
     """Reference coordinates (p, 2) of the nearest point of each face and its distance (p,), by Gauss-Newton."""
     local = np.full((len(point), 2), 0.5)
     for _ in range(_NEWTON_STEPS):

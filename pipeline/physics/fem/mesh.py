@@ -21,13 +21,15 @@ _TURN = 2 * np.pi
 class Mesh:
     """Nodes (n, 3) [m], elements (e, v) in the order of meshio, and their lattice cell (e, 3).
 
-    ``kind``: a cell type of meshio, or "mixed" as ``reference_cells`` describes it.
+    ``kind``: a cell type of meshio, or "mixed" as ``reference_cells`` describes it; ``groups`` {name: faces (f, v), or
+    nodes (k, 1)} of a mesh from a file, None of others.
     """
 
     node: np.ndarray
     element: np.ndarray
     kind: str
     cell: np.ndarray
+    groups: dict | None = None
 
 
 def revolve(radius, angle, height, mask=None, kind="hexahedron20"):

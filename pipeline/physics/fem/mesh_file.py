@@ -91,40 +91,57 @@ def mesh_of(where, points, blocks, units, labels=None):
     blocks : [(kind, (c, v) rows of points in the order of meshio)]
     labels : (e,) numbers of the elements in the file, for errors; counted from 0 by default
 
-    Raises ConfigError for cells not served, a size that no part of a brake has, nodes that lie in one place,
-    disconnected parts, mid-side nodes off their edges and elements turned inside out.
+    Raises ConfigError as ``unchecked`` and ``check``.
     """
+    mesh, used = unchecked(where, points, blocks, units)
+    check(mesh, where, labels)
+    return mesh, used
+
+
+def unchecked(where, points, blocks, units):
+    """As ``mesh_of``, but refuses only cells not served, nodes that are not there and a size that no part has."""
     blocks = _served(where, blocks)
     _check_nodes(where, blocks, len(points))
     kind, element = joined(blocks)
     used, compact = np.unique(element, return_inverse=True)
     node = np.asarray(points[used], float)
     _check_size(where, np.ptp(node, axis=0).max(), units)
-    mesh = Mesh(LENGTH[units] * node, compact.reshape(element.shape), kind, np.zeros((len(element), 3), int))
-    check(mesh, where, labels)
-    return mesh, used
+    return Mesh(LENGTH[units] * node, compact.reshape(element.shape), kind, np.zeros((len(element), 3), int)), used
 
 
-def check(mesh, where, labels=None):
-    """Raises ConfigError, which begins with ``where``, for a Mesh that is no one sound body; ``labels`` (e,) numbers of
-    its elements in the file."""
+def check(mesh, where, labels=None, ties=()):
+    """Refuse a Mesh that is no one sound body: nodes that lie in one place, disconnected parts, mid-side nodes off
+    their edges and elements turned inside out.
+
+    ``labels`` (e,): numbers of its elements in the file; ``ties`` [(f, v) and (g, w) faces] that join its parts, whose
+    nodes may lie in one place. Raises ConfigError, which begins with ``where``.
+    """
     extent = np.ptp(mesh.node, axis=0).max()
+    rows = [mesh.element, *(np.append(*map(np.ravel, tie))[None] for tie in ties)]
+    part, whole = _parts(len(mesh.node), rows[:1]), _parts(len(mesh.node), rows)
     pair = scipy.spatial.cKDTree(mesh.node).query_pairs(_SAME * extent, output_type="ndarray")
+    pair = pair[(part[pair[:, 0]] == part[pair[:, 1]]) | (whole[pair[:, 0]] != whole[pair[:, 1]])]
     if len(pair):
         raise ConfigError(where, "one node in one place", f"{len(pair)} pairs of them, the first at "
                           f"{np.array2string(mesh.node[pair[0, 0]], precision=5)} m",
-                          "merge coincident nodes (equivalence) and write the mesh again")
-    v = mesh.element.shape[1]
-    link = scipy.sparse.coo_matrix((np.ones(mesh.element.size, bool), (np.repeat(mesh.element[:, 0], v),
-                                                                       mesh.element.ravel())), (len(mesh.node),) * 2)
-    parts, part = scipy.sparse.csgraph.connected_components(link, directed=False)
-    if parts > 1:
-        raise ConfigError(where, "one connected body", f"{parts} parts of {np.sort(np.bincount(part))[::-1][:5]} nodes",
-                          "write this body alone, or merge the nodes that its parts share")
+                          "merge coincident nodes (equivalence) and write the mesh again, or tie the parts (*TIE)")
+    if whole.max(initial=0):
+        nodes = [mesh.node[whole == k] for k in range(min(whole.max() + 1, 5))]
+        listed = [f"{len(each)} nodes about {np.array2string(each.mean(axis=0), precision=4)} m" for each in nodes]
+        raise ConfigError(where, "one connected body", f"{whole.max() + 1} parts, of {', '.join(listed)}",
+                          "write this body alone, merge the nodes that its parts share, or tie them (*TIE)")
     for kind, rows, cells in by_kind(mesh.kind, mesh.element):
         names = [f"{k}, counted from 0" for k in rows] if labels is None else labels[rows]
         _check_middles(where, mesh.node, kind, names, cells)
         _check_jacobians(where, mesh.node, kind, names, cells)
+
+
+def _parts(nodes, rows):
+    """(n,) number of the part to which each node belongs; ``rows`` [(r, v)] of nodes that hang together."""
+    ends = [(np.repeat(each[:, 0], each.shape[1]), each.ravel()) for each in rows]
+    first, other = (np.concatenate(each) for each in zip(*ends, strict=True))
+    link = scipy.sparse.coo_matrix((np.ones(len(first), bool), (first, other)), (nodes, nodes))
+    return scipy.sparse.csgraph.connected_components(link, directed=False)[1]
 
 
 def _read(path):

@@ -110,6 +110,14 @@ def cell_faces(kind):
             for corners in _FACES[kind]]
 
 
+@cache
+def mirrored_vertices(kind):
+    """Vertices of a cell in the order in which its mirror image is no longer turned inside out."""
+    cell = reference_vertices(kind)
+    image = cell[:, [1, 0, 2]] if kind.startswith("tetra") else np.column_stack((cell[:, :2], 1 - cell[:, 2]))
+    return [_nearest(cell, place) for place in image]
+
+
 def _square_face(square, cube, axis, side):
     """Vertices of one face of the cube; its two axes are ordered so that the normal points outwards."""
     first, second = ((axis + 1) % 3, (axis + 2) % 3)[::1 if side else -1]

@@ -14,6 +14,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, centrifugal_load, geometric_stiffness, gyroscopic
 from pipeline.physics.fem.mesh import Mesh, boundary_faces, corners
 from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.fem.ties import tie_stiffness
 from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.reduction.craig_bampton import (
     attachment,
@@ -34,7 +35,8 @@ class ElasticBody:
     ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` (i,) carry
     forces. ``patterns`` (i, p) sparse: forces on these that static responses are kept for; None = each by itself.
     ``loss_factor`` (materials,) of the materials; ``part``: numbers of those whose stiffness is wanted by itself as
-    well. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free body without patterns.
+    well; ``ties``: Ties of unlike meshes. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free body
+    without patterns.
     """
 
     name: str
@@ -54,10 +56,12 @@ class ElasticBody:
     patterns: "scipy.sparse.csr_matrix | None" = None
     loss_factor: np.ndarray | float = 0.0
     part: tuple = ()
+    ties: tuple = ()
 
     def matrices(self):
         """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
-        return assemble(self.node, self.element, self.kind, self.material, self.density, self.elasticity)
+        matrices = assemble(self.node, self.element, self.kind, self.material, self.density, self.elasticity)
+        return (matrices[0] + tie_stiffness(self.ties, len(self.node)), matrices[1]) if self.ties else matrices
 
     def loss(self):
         """Imaginary part (3n, 3n) sparse of the stiffness: that of its materials times their loss factors."""

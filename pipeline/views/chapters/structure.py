@@ -37,8 +37,8 @@ def chapter(structure, modes, look):
 
 
 def _mesh_notes(structure):
-    """What the mesh file of the disc holds and was not read, and where its materials come from."""
-    return tuple(f"Mesh file of the disc: {note}." for note in structure.disc_note)
+    """What the mesh files of bodies hold and was not read, and where their materials come from."""
+    return tuple(f"Mesh file, {note}." for note in structure.mesh_note)
 
 
 def _assembly(structure, picture):

@@ -74,7 +74,7 @@ def statement(case, products):
 def _rows(case, products):
     """(name, source of scatter, value, origin, meaning, rank) of the deciding values that are default or assumed."""
     rows, brake = [], products.get("structure")
-    given = {f"structure.disc.{name}" for name in getattr(brake, "disc_given", ())}
+    given = {f"structure.{name}" for name in getattr(brake, "mesh_given", ())}
     for stage, settings in case.settings.items():
         for key, value in settings.items():
             name = f"{stage}.{key}"

@@ -79,25 +79,11 @@ def test_includes_lie_in_the_folder_of_the_deck(tmp_path):
         deck(folder / "a.inp", "*INCLUDE, INPUT=b.inc\n")
 
 
-def test_a_part_with_one_instance_is_shifted_and_several_are_refused(tmp_path):
-    flat = abaqus(cube())
-    part = f"*PART, NAME=P\n{flat.partition('a body')[2]}*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n"
-    end = "*NSET, NSET=top, INSTANCE=I\n1, 2\n*END ASSEMBLY\n"
-    result = deck(tmp_path / "a.inp", f"{part}0, 0, 5.\n*END INSTANCE\n{end}")
-    assert np.allclose(result.node, 1e3 * cube().node + (0, 0, 5)) and list(result.node_sets["TOP"]) == [1, 2]
-    with pytest.raises(ConfigError, match="an instance that is not turned"):
-        deck(tmp_path / "a.inp", f"{part}0, 0, 5.\n0, 0, 0, 1, 0, 0, 90.\n{end}")
-    with pytest.raises(ConfigError, match=r"one part with one instance.*a second \*INSTANCE; write a deck for each"):
-        deck(tmp_path / "a.inp", f"{part}*INSTANCE, NAME=J, PART=P\n{end}")
-
-
 def test_what_is_not_read_is_said(tmp_path):
     more = f"""{IRON}*DAMPING, ALPHA=3.
 *ELEMENT, TYPE=SPRING1, ELSET=springs
 9001, 1
 9002, 2
-*TIE, NAME=glue
-a, b
 *STEP
 *FREQUENCY
 20,
@@ -106,7 +92,7 @@ a, b
 *END STEP
 """
     note, = deck(tmp_path / "a.inp", abaqus(cube(), more=more)).notes
-    assert note == ("not read: *DAMPING, *ELEMENT of type SPRING1 (2 times), *TIE, *STEP (2 times), *FREQUENCY")
+    assert note == ("not read: *DAMPING, *STEP (2 times), *FREQUENCY, *ELEMENT of type SPRING1 (2 times)")
 
 
 @pytest.mark.parametrize("more, message", [

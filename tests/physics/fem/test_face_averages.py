@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.fem.face_averages import face_points, foundation, interpolation, surface_rows
+from pipeline.physics.fem.face_averages import face_mean, face_points, foundation, interpolation, surface_rows
 from pipeline.physics.fem.mesh import block, boundary_faces, face_normals, revolve
 
 pytestmark = pytest.mark.exact
@@ -45,6 +45,14 @@ def test_area_of_a_ring_and_its_foundation():
     for axis in range(3):
         lift = np.tile(np.eye(3)[axis], len(mesh.node))
         assert lift @ (matrix @ lift) == pytest.approx((axis + 1) * 1e9 * area)
+
+
+@pytest.mark.parametrize("kind", ["hexahedron20", "hexahedron27"])
+def test_mean_over_the_area_of_faces(kind):
+    """Mean of x^2 + y over the unit square: 1/3 + 1/2."""
+    mesh = block(np.array([0, 0.3, 1]), np.array([0, 0.6, 1]), np.array([0, 1.0]), kind=kind)
+    x, y, _ = mesh.node.T
+    assert (face_mean(mesh.node, top(mesh)) @ (x**2 + y)) == pytest.approx(5 / 6)
 
 
 def test_quadratic_field_is_read_exactly():

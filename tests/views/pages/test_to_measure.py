@@ -55,6 +55,6 @@ def test_other_systems_have_no_such_list():
 
 
 def test_values_that_a_mesh_file_gives_are_no_defaults():
-    given = {"structure": SimpleNamespace(disc_given=["young", "density"])}
+    given = {"structure": SimpleNamespace(mesh_given=["disc.young", "disc.density"])}
     assert "structure.disc.young" in names({}) and "structure.disc.young" not in names(given)
     assert statement(CASE, given).startswith("3 values that decide")

@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.decks.meshes.body import MeshedBody, read_body
+from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.body import read_body
 from pipeline.decks.meshes.material import Material
-
-#: of the disc: the name of a material that no file gives, and its section
-DISC = "cast iron", "structure.disc"
 
 #: declared and given values that differ by less than this share are the same
 _SAME = 1e-3
@@ -17,41 +15,39 @@ _VALUES = {"young": ("Young's modulus", "{:.4g} Pa"), "poisson": ("Poisson's rat
            "density": ("density", "{:.5g} kg/m^3")}
 
 
-def meshed(parameters, mesh):
-    """MeshedBody of the file that ``parameters`` name, else of ``mesh(parameters)``."""
-    if parameters.mesh_file:
-        return read_body(parameters.mesh_file, parameters.mesh_units)
-    made = mesh(parameters)
-    return MeshedBody(made, (), np.full(len(made.element), -1), ())
-
-
-def notes(parameters, name, where):
-    """Sentences on the mesh file that ``parameters`` name: what it holds and was not read, whence the materials are."""
-    if not parameters.mesh_file:
-        return ()
-    body = read_body(parameters.mesh_file, parameters.mesh_units)
-    return (*body.notes, *materials(body, parameters, name, where)[2])
-
-
 def from_file(parameters):
     """Names among young, poisson and density whose value is that of the mesh file: the case states none."""
-    members = read_body(parameters.mesh_file, parameters.mesh_units).materials if parameters.mesh_file else ()
-    return tuple(key for key in _VALUES if key not in parameters.decided_by_statement() and any(
+    if not parameters.mesh_file:
+        return ()
+    members, stated = read(parameters).materials, parameters.decided_by_statement()
+    return tuple(key for key in _VALUES if key not in stated and any(
         (material.density if key == "density" else material.young) is not None for material in members))
 
 
-def materials(body, parameters, name, where):
+def read(parameters):
+    """MeshedBody of the file, and the sets of it, that a section names."""
+    return read_body(parameters.mesh_file, parameters.mesh_units, parameters.mesh_sets)
+
+
+def materials(body, parameters, name, where, complete=None):
     """(materials [Material] in SI units, (e,) row of each element, sentences on where each value comes from).
 
     ``body``: MeshedBody; ``parameters``: section with young, poisson and density, of which those that the case states
     go before those of the file, and those that neither states are the defaults of the section; ``name``: of a material
-    that the file does not give; ``where``: the section, for the sentences.
+    that the file does not give; ``where``: the section, for the sentences; ``complete``: what gives a material all its
+    values, that of one with young, poisson and density by default, or ``lining``. Raises ConfigError for a deck with
+    materials of which the body has none, and the case states none.
     """
+    complete = complete or _completed
     stated = set(parameters.decided_by_statement())
+    if body.known and not body.materials and not _stated_at_all(stated, name):
+        raise ConfigError(where, f"a material of the {name}", f"none of {', '.join(body.known)} on its elements",
+                          "write a section of them in the deck, such as *SOLID SECTION, or state its modulus, Poisson's"
+                          " ratio and density in the case")
     rest = (body.element_material < 0).any()
     members = [*body.materials, *[Material(name)] * bool(rest)]
     row = np.where(body.element_material < 0, len(body.materials), body.element_material)
-    completed = [_completed(material, parameters, stated, where) for material in members]
+    completed = [complete(material, parameters, stated, where) for material in members]
     said = [note for _, each in completed for note in each] if body.materials else []
     if rest and body.materials:
         said.append(f"{(body.element_material < 0).sum()} elements have no material in the file: {name} of {where}")
@@ -77,6 +73,34 @@ def _completed(material, parameters, stated, where):
     else:
         said.append(f"{material.name}: direction-dependent constants of the file")
     return completed, tuple(said)
+
+
+def _stated_at_all(stated, name):
+    """Whether the case states a value of a material, of pads with the names of its layer."""
+    return any(key.startswith("lining_") == (name == "lining") for key in stated)
+
+
+def lining(material, pad, stated, where):
+    """(the lining with all values, sentences): along radius, sliding and thickness as the case states, else the file.
+
+    ``material``: Material of the file in SI units; ``pad``: section with ``lining_...``, of which it states ``stated``.
+    """
+    stated = {key for key in stated if key.startswith("lining_")}
+    dense = "lining_density" in stated or material.density is None
+    density = pad.lining_density if dense else material.density
+    said = [f"{material.name}: density {density:.5g} kg/m^3, {_source(dense, 'lining_density' in stated, where)}"]
+    elastic = stated - {"lining_density"}
+    if not elastic and material.young is not None:
+        return replace(material, density=density), (f"{material.name}: elastic constants of the file", *said)
+    young = tuple(getattr(pad, f"lining_young_{axis}") for axis in ("radial", "tangential", "normal"))
+    shear = (pad.lining_shear_normal, pad.lining_shear_normal, pad.lining_shear_in_plane)
+    said.insert(0, f"{material.name}: elastic constants {_source(True, bool(elastic), where)}, along x, y, z")
+    return replace(material, young=young, poisson=(pad.lining_poisson,) * 3, shear=shear, axes=None,
+                   density=density), tuple(said)
+
+
+def _source(of_case, stated, where):
+    return f"{'as stated' if stated else 'the default'} in {where}" if of_case else "from the file"
 
 
 def _note(name, key, given, chosen, stated, where):

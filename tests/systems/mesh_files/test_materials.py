@@ -1,19 +1,28 @@
 """Materials of a disc from a deck: the case goes before the file, the file before the defaults, and it is said."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.fingerprint import settings_of
 from pipeline.physics.fem.elasticity import isotropic
-from pipeline.systems.deck_materials import DISC, from_file, materials, meshed, notes
 from pipeline.systems.disc_brake import disc, disc_mesh
+from pipeline.systems.mesh_files.bodies import notes as notes_of
+from pipeline.systems.mesh_files.materials import from_file, materials, read
 from stages import model_update
 from stages.structure import Disc, Settings
 from tests.decks.meshes.small_decks import IRON, abaqus
 from tests.decks.meshes.test_abaqus_materials import LINING
 
 pytestmark = pytest.mark.exact
+DISC = "cast iron", "structure.disc"
+
+
+def notes(section):
+    """Those of a disc, without its name."""
+    return tuple(note.removeprefix("disc: ") for note in notes_of(SimpleNamespace(disc=section)))
 
 
 @pytest.fixture
@@ -31,7 +40,7 @@ def test_the_file_goes_before_the_defaults(deck):
     made = disc(settings)
     assert made.material_name == ("IRON",) and made.density == pytest.approx([7100])
     assert np.allclose(made.elasticity, isotropic(110e9, 0.26)) and len(made.supported)
-    assert notes(settings, *DISC) == ("IRON: Young's modulus 1.1e+11 Pa, from the file",
+    assert notes(settings) == ("IRON: Young's modulus 1.1e+11 Pa, from the file",
                                       "IRON: Poisson's ratio 0.26, from the file",
                                       "IRON: density 7100 kg/m^3, from the file")
 
@@ -40,7 +49,7 @@ def test_the_case_goes_before_the_file_and_says_so(deck):
     settings = Disc(**deck(IRON), young="120 GPa", density="7100 kg/m^3")
     made = disc(settings)
     assert np.allclose(made.elasticity, isotropic(120e9, 0.26)) and made.density == pytest.approx([7100])
-    assert notes(settings, *DISC) == (
+    assert notes(settings) == (
         "IRON: Young's modulus 1.2e+11 Pa, as stated in structure.disc.young; the file gives 1.1e+11 Pa",
         "IRON: Poisson's ratio 0.26, from the file", "IRON: density 7100 kg/m^3, as stated and from the file")
 
@@ -51,7 +60,7 @@ def test_what_the_file_does_not_give(deck):
     made = disc(settings)
     assert made.material_name == ("B", "cast iron") and list(made.element_material[:3]) == [0, 0, 1]
     assert made.density == pytest.approx([7100, 7200]) and np.allclose(made.elasticity, isotropic(120e9, 0.27))
-    said = notes(settings, *DISC)
+    said = notes(settings)
     assert "B: Young's modulus 1.2e+11 Pa, the default in structure.disc.young; the file gives none" in said
     assert said[-1] == f"{len(made.element_material) - 2} elements have no material in the file: cast iron of" \
                        " structure.disc"
@@ -61,7 +70,7 @@ def test_what_the_file_does_not_give(deck):
 def test_direction_dependent_constants(deck):
     given = LINING.replace(", ORIENTATION=axes", "") + "*MATERIAL, NAME=UNUSED\n"
     named = deck(given)
-    body = meshed(Disc(**named), disc_mesh)
+    body = read(Disc(**named))
     (material,), _, said = materials(body, Disc(**named), *DISC)
     assert material.young == pytest.approx((6e9, 5e9, 1.5e9)) and said[-1].endswith("constants of the file")
     (material,), _, said = materials(body, Disc(**named, young="100 GPa"), *DISC)
@@ -69,7 +78,7 @@ def test_direction_dependent_constants(deck):
 
 
 def test_without_a_file_nothing_is_said():
-    assert notes(Disc(), *DISC) == () and disc(Disc()).material_name == ("cast iron",)
+    assert notes(Disc()) == () and disc(Disc()).material_name == ("cast iron",)
 
 
 def test_what_the_case_leaves_to_the_file(deck):

@@ -1,0 +1,1 @@
+"""Bodies of systems from mesh files: their Solids, materials and springs."""
