@@ -1,8 +1,12 @@
 """One report of small products, shared by the tests that read it."""
 
+import re
+
 import pytest
 
 from pipeline.contract import Context
+from pipeline.views.figures import style
+from pipeline.views.figures.plotted.columns import Table
 from stages.report import Settings, report
 from tests.views import products_for_views as small
 
@@ -12,3 +16,17 @@ def html():
     """The page of all small products, with few and coarse pictures."""
     few = Settings(dots_per_inch=50, mode_pictures=1)
     return report(small.products(), settings=few, context=Context(case=small.case())).html.item()
+
+
+@pytest.fixture(autouse=True)
+def every_picture_has_its_data_with_units(monkeypatch):
+    """Whatever a test draws has columns with names of their own and, where they hold numbers, with units."""
+    drawn, numbers = [], style.numbers
+    monkeypatch.setattr(style, "numbers", lambda figure: drawn.append(numbers(figure)) or drawn[-1])
+    yield
+    for panels, series in drawn:
+        columns = Table.of(series).columns
+        assert len({column.name for column in columns}) == len(columns)
+        assert all(len(column.values) for column in columns)
+        assert not [c.name for c in columns if c.values.dtype.kind != "U" and not re.search(r" / \S", c.name)]
+        assert {item.panel for item in series} <= set(range(len(panels)))

@@ -45,6 +45,7 @@ from pipeline.views.figures.models import rupture as rupture_pictures
 from pipeline.views.pages import case_settings as case_view
 from pipeline.views.pages.limits import limits
 from pipeline.views.pages.summary import published_squeal, verdict
+from pipeline.views.pages.template import template
 from pipeline.views.pages.to_measure import statement, to_measure
 
 #: what a chapter may be given besides products: the squeal frequencies among the published facts
@@ -152,12 +153,3 @@ def _key_figure(products, look):
     if len(squeal.pressure) == 1 and products.get("transient") is not None:
         return transient.loudest(products["transient"], squeal, look)
     return Figure(sound_pictures.occurrence(squeal, look.dpi), vibration.occurrence_caption(squeal))
-
-
-def template():
-    """The template of every page."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(loader=PackageLoader("pipeline.views"), autoescape=True, undefined=StrictUndefined,
-                              trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("report.html.j2")
