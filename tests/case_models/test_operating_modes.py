@@ -74,5 +74,5 @@ def test_balances_of_a_mode_add_up_to_its_growth_rate():
 
 
 def test_a_system_without_a_disc_has_no_diameters():
-    plain = SimpleNamespace(body_name=("pin",), visible_body=np.zeros(2, int))
+    plain = SimpleNamespace(body_name=("pin",), visible_body=np.zeros(2, int), visible_position=np.zeros((2, 3)))
     assert diameters(plain, np.ones((2, 2, 3))).tolist() == [-1, -1]
