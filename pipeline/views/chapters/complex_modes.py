@@ -8,6 +8,7 @@ from pipeline.views.chapters.unstable_modes import blocks, distinct_unstable, si
 from pipeline.views.figures import complex_modes as pictures
 from pipeline.views.figures import mode_shapes
 from pipeline.views.figures.number_format import number, percent, quantity, span
+from pipeline.views.figures.plotted.picture import in_space
 from pipeline.views.figures.scene import render
 
 TWO_PI = 2.0 * np.pi
@@ -22,7 +23,8 @@ def chapter(modes, model, published, look):
     """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
     drawable = model is not None and len(model.visible_face)
     chosen = list(map(int, modes.followed_mode)) if drawable and look.shapes else []
-    rendered = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
+    scenes = [mode_shapes.unstable_mode(model, modes, index) for index in chosen]
+    rendered = in_space(scenes, render(scenes))
     pictures = dict(zip(chosen, rendered or (), strict=False))
     return Chapter(
         "complex_modes", "Stability of steady sliding",

@@ -27,16 +27,15 @@ _PERIOD = 1600
 
 @dataclass(frozen=True)
 class Solid:
-    """One body of a picture: cells over points, coloured by a scalar per point or by one colour."""
+    """One body of a picture: cells over points, coloured by its axial motion or by one colour."""
 
-    points: np.ndarray          # (point, xyz) in m, already displaced
+    points: np.ndarray          # (point, xyz) in m, at rest
     cells: np.ndarray           # (cell, vertex)
     kind: str                   # key of CELLS, or mixed
-    scalar: np.ndarray | None = None    # (point,), -1 ... 1
     colour: str = "#9aa3ad"
     edges: bool = False
     opacity: float = 1.0
-    motion: np.ndarray | None = None    # (point, xyz) complex, in m about points at rest; colour = its axial part
+    motion: np.ndarray | None = None    # (point, xyz), real or complex, in m; colour = its axial part
     limit: float = 1.0          # axial motion of full colour, in m
 
 
@@ -86,22 +85,21 @@ def draw(scene):
 
 
 def _add(plotter, solid, pyvista):
-    cells = {pyvista.CellType[CELLS[kind][1]]: each[:, :CELLS[kind][0]] for kind, each in _blocks(solid)}
+    cells = {pyvista.CellType[CELLS[kind][1]]: each[:, :CELLS[kind][0]] for kind, each in blocks(solid)}
     grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points, dtype=float))
-    scalar = solid.scalar if solid.motion is None else solid.motion[:, 2].real / solid.limit
-    if scalar is not None:
-        grid.point_data["colour"] = scalar
+    if solid.motion is not None:
+        grid.point_data["colour"] = solid.motion[:, 2].real / solid.limit
     skin = grid.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=0 if solid.edges else 2)
     look = {"show_edges": solid.edges, "edge_color": "#3a4048", "line_width": 1, "smooth_shading": False,
             "opacity": solid.opacity}
-    if scalar is None:
+    if solid.motion is None:
         plotter.add_mesh(skin, color=solid.colour, **look)
     else:
         plotter.add_mesh(skin, scalars="colour", cmap="PuOr_r", clim=(-1, 1), show_scalar_bar=False, **look)
     return skin
 
 
-def _blocks(solid):
+def blocks(solid):
     """[(kind, cells)] of a solid."""
     if solid.kind != "mixed":
         return [(solid.kind, solid.cells)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 
 #: scripts of the templates folder, in the order in which they run
-_SCRIPTS = ("pointer.js",)
+_SCRIPTS = ("reading.js", "pointer.js", "turning.js")
 
 
 @dataclass(frozen=True)

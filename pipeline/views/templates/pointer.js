@@ -1,7 +1,7 @@
 // Values under the pointer, read from the CSV data of a figure, and a large view of it. Without it the page is the same.
 "use strict";
 (() => {
-  const NEAR = 30;
+  const NEAR = 60;
   const readings = new WeakMap();
   const tip = made("div", "tip"), dot = made("div", "dot");
 
@@ -10,21 +10,6 @@
     element.className = name;
     inside.append(element);
     return element;
-  }
-
-  // bytes of a data URI; the one file of a zip archive is inflated
-  async function text(address) {
-    const [head, body] = address.split(",");
-    const bytes = Uint8Array.from(atob(body), c => c.charCodeAt(0));
-    if (!head.includes("zip")) return new TextDecoder().decode(bytes);
-    const view = new DataView(bytes.buffer);
-    const begin = 30 + view.getUint16(26, true) + view.getUint16(28, true);
-    const packed = new Blob([bytes.subarray(begin, begin + view.getUint32(18, true))]);
-    return new Response(packed.stream().pipeThrough(new DecompressionStream("deflate-raw"))).text();
-  }
-
-  function cells(line) {
-    return [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^",]*))/g)].map(m => m[1]?.replaceAll('""', '"') ?? m[2]);
   }
 
   const scaled = (value, log) => log ? Math.log(value) : value;
@@ -38,7 +23,7 @@
   async function read(picture) {
     const {panels, series} = JSON.parse(picture.dataset.places);
     const link = picture.source ?? picture.closest("figure").querySelector("a.data");
-    const [names, ...rows] = (await text(link.href)).trimEnd().split("\n").map(cells);
+    const [names, ...rows] = (await reading.text(link.href)).trimEnd().split("\n").map(reading.cells);
     const points = series.map(({panel, x, y, more = []}) => {
       const {box, x: across, y: up} = panels[panel];
       return {panel, columns: [x, y, ...more],

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 
 from pipeline.views.figures.plotted.columns import Table
+from pipeline.views.figures.plotted.shape import Shape, shape_of
 
 #: CSV text of more bytes than these is zipped
 _PLAIN = 64_000
@@ -16,15 +17,16 @@ _DATE = (1980, 1, 1, 0, 0, 0)
 
 @dataclass(frozen=True)
 class Picture:
-    """PNG bytes or SVG text, and the Series shown in its Panels.
+    """PNG or WebP bytes or SVG text, and the Series shown in its Panels.
 
-    ``moving``: an animation, whose numbers are those of its last frame.
+    ``moving``: an animation, whose numbers are those of its last frame. ``shape``: of a picture in three dimensions.
     """
 
     image: bytes | str
     panels: tuple = field(default=(), compare=False)
     series: tuple = field(default=(), compare=False)
     moving: bool = False
+    shape: Shape | None = field(default=None, compare=False)
 
     @property
     def csv(self):
@@ -34,11 +36,19 @@ class Picture:
     @property
     def places(self):
         """JSON text: where the panels lie on the picture, and which columns are points in which panel."""
-        if self.moving or not self.series:
+        if self.moving or not self.panels or not self.series:
             return ""
         table = Table.of(self.series)
         return json.dumps({"panels": [panel.place() for panel in self.panels], "series": table.places()},
                           separators=(",", ":"), allow_nan=False)
+
+
+def in_space(scenes, images):
+    """[Picture] of Scenes, from the ``images`` (bytes) that were drawn of them; None where none could be drawn."""
+    if images is None:
+        return None
+    shapes = map(shape_of, scenes)
+    return [Picture(image, (), shape.series, shape=shape) for image, shape in zip(images, shapes, strict=True)]
 
 
 def data_uri(csv, name):
