@@ -41,7 +41,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Scene:
-    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period, one for a still."""
+    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period, of linear cells, or one."""
 
     solids: tuple
     direction: tuple = (0.45, -1.0, 1.1)
@@ -76,7 +76,7 @@ def draw(scene):
     plotter.camera.zoom(1.25)
     pictures = []
     for frame in range(scene.frames):
-        for solid, skin in zip(scene.solids, skins, strict=True):
+        for solid, skin in zip(scene.solids, skins, strict=True) if frame else ():
             _move(solid, skin, np.exp(2j * np.pi * frame / scene.frames))
         plotter.render()
         pictures.append(plotter.screenshot(return_img=True))
@@ -86,9 +86,10 @@ def draw(scene):
 
 def _add(plotter, solid, pyvista):
     cells = {pyvista.CellType[CELLS[kind][1]]: each[:, :CELLS[kind][0]] for kind, each in blocks(solid)}
-    grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points, dtype=float))
+    motion = 0.0 if solid.motion is None else solid.motion.real
+    grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points + motion, dtype=float))
     if solid.motion is not None:
-        grid.point_data["colour"] = solid.motion[:, 2].real / solid.limit
+        grid.point_data["colour"] = motion[:, 2] / solid.limit
     skin = grid.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=0 if solid.edges else 2)
     look = {"show_edges": solid.edges, "edge_color": "#3a4048", "line_width": 1, "smooth_shading": False,
             "opacity": solid.opacity}
