@@ -19,14 +19,21 @@ def html():
 
 
 @pytest.fixture(autouse=True)
-def every_picture_has_its_data_with_units(monkeypatch):
-    """Whatever a test draws has columns with names of their own and, where they hold numbers, with units."""
+def every_picture_has_its_data_with_units_and_nothing_is_clipped(monkeypatch):
+    """Whatever a test draws has columns with names of their own and, where they hold numbers, with units; all of it lies
+    within the picture."""
     drawn, numbers = [], style.numbers
-    monkeypatch.setattr(style, "numbers", lambda figure: drawn.append(numbers(figure)) or drawn[-1])
+
+    def record(figure):
+        drawn.append((numbers(figure), figure.get_tightbbox().extents, figure.get_size_inches()))
+        return drawn[-1][0]
+
+    monkeypatch.setattr(style, "numbers", record)
     yield
-    for panels, series in drawn:
+    for (panels, series), (left, bottom, right, top), (width, height) in drawn:
         columns = Table.of(series).columns
         assert len({column.name for column in columns}) == len(columns)
         assert all(len(column.values) for column in columns)
         assert not [c.name for c in columns if c.values.dtype.kind != "U" and not re.search(r" / \S", c.name)]
         assert {item.panel for item in series} <= set(range(len(panels)))
+        assert min(left, bottom, width - right, height - top) > -0.02, (left, bottom, width - right, height - top)
