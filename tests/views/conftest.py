@@ -20,7 +20,7 @@ def html():
 
 @pytest.fixture(autouse=True)
 def every_picture_has_its_data_with_units_and_nothing_is_clipped(monkeypatch):
-    """Whatever a test draws has columns with names of their own and, where they hold numbers, with units; all of it lies
+    """Whatever a test draws has columns with names of their own and, where they hold numbers, with units; all of it is
     within the picture."""
     drawn, numbers = [], style.numbers
 

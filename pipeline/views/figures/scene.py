@@ -41,7 +41,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Scene:
-    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period (of linear cells), or 1."""
+    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period (linear cells), or 1."""
 
     solids: tuple
     direction: tuple = (0.45, -1.0, 1.1)
