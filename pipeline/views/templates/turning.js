@@ -1,7 +1,7 @@
 // Bodies that can be turned by dragging, and modes that move, drawn from the data of a figure in place of its picture.
 "use strict";
 (() => {
-  const SIZE = [840, 640], PERIOD = 1600, FILLED = 0.85;
+  const SIZE = [840, 640], PERIOD = 1600, FRAME = 30, FILLED = 0.85;
   const STOPS = [[45, 0, 75], [153, 142, 195], [247, 247, 247], [241, 163, 64], [127, 59, 8]];
 
   async function read(picture) {
@@ -43,6 +43,8 @@
   function canvas(picture, shape) {
     const element = document.createElement("canvas");
     [element.width, element.height] = SIZE;
+    element.setAttribute("role", "img");
+    element.setAttribute("aria-label", picture.querySelector("img").alt);
     picture.append(element);
     const pen = element.getContext("2d");
     const {look, points, real, imaginary, faces} = shape, count = points[0].length, total = faces.length / 4;
@@ -54,43 +56,53 @@
     place();
     const fit = FILLED * Math.min(...SIZE.map((pixels, a) => pixels / ends(seen[a]).reduce((low, high) => high - low)));
 
+    // seen: to the right, upwards and towards the eye, of every point in its place at this phase
     function place() {
-      const c = Math.cos(state.phase), s = Math.sin(state.phase), scale = look.scale * state.size;
+      const c = Math.cos(state.phase), s = Math.sin(state.phase), scale = look.scale * state.size, p = [0, 0, 0];
       for (let n = 0; n < count; n++) {
-        const p = points.map((values, a) => values[n] - middle[a]);
-        if (look.moving) {
-          for (let a = 0; a < 3; a++) p[a] += scale * (real[a][n] * c - imaginary[a][n] * s);
-          axial[n] = (real[2][n] * c - imaginary[2][n] * s) / look.limit;
+        for (let a = 0; a < 3; a++) {
+          const moved = look.moving ? real[a][n] * c - imaginary[a][n] * s : 0;
+          p[a] = points[a][n] - middle[a] + scale * moved;
+          if (a === 2) axial[n] = moved / look.limit;
         }
         for (let a = 0; a < 3; a++) seen[a][n] = dot(state.view[a], p);
       }
       for (let f = 0; f < total; f++) {
-        depth[f] = seen[2][faces[4 * f]] + seen[2][faces[4 * f + 1]] + seen[2][faces[4 * f + 2]] + seen[2][faces[4 * f + 3]];
+        depth[f] = 0;
+        for (let e = 4 * f; e < 4 * f + 4; e++) depth[f] += seen[2][faces[e]];
       }
       order.sort((f, g) => depth[f] - depth[g]);
+    }
+
+    // share of the light that a face with these corners sends to the eye
+    function light(i, j, k, l) {
+      const [x, y, z] = seen, a = x[k] - x[i], b = y[k] - y[i], c = z[k] - z[i];
+      const d = x[l] - x[j], e = y[l] - y[j], f = z[l] - z[j];
+      const normal = [b * f - c * e, c * d - a * f, a * e - b * d];
+      return 0.45 + 0.55 * Math.abs(normal[2]) / (Math.hypot(...normal) || 1);
     }
 
     function draw() {
       place();
       const [width, height] = SIZE, factor = state.zoom * fit;
-      const across = n => width / 2 + factor * seen[0][n], down = n => height / 2 - factor * seen[1][n];
       pen.fillStyle = "#fff";
       pen.fillRect(0, 0, width, height);
       for (const f of order) {
-        const [i, j, k, l] = faces.subarray(4 * f, 4 * f + 4), each = look.bodies[body[f]];
-        const edges = [k, l].map((m, e) => seen.map(values => values[m] - values[[i, j][e]]));
-        const normal = cross(...edges), light = 0.45 + 0.55 * Math.abs(normal[2]) / (Math.hypot(...normal) || 1);
+        const i = faces[4 * f], j = faces[4 * f + 1], k = faces[4 * f + 2], l = faces[4 * f + 3];
         const base = look.moving ? colour((axial[i] + axial[j] + axial[k] + axial[l]) / 4) : paints[body[f]];
-        const shade = `rgb(${base.map(v => Math.round(v * light)).join(",")})`;
-        pen.globalAlpha = each.opacity;
+        const bright = light(i, j, k, l), shade = `rgb(${base.map(v => Math.round(v * bright)).join(",")})`;
+        const opacity = look.bodies[body[f]].opacity;
+        pen.globalAlpha = opacity;
         pen.fillStyle = shade;
         pen.strokeStyle = look.moving ? shade : "#3a4048";
         pen.beginPath();
-        pen.moveTo(across(i), down(i));
-        for (const n of [j, k, l]) pen.lineTo(across(n), down(n));
+        pen.moveTo(width / 2 + factor * seen[0][i], height / 2 - factor * seen[1][i]);
+        for (let e = 4 * f + 1; e < 4 * f + 4; e++) {
+          pen.lineTo(width / 2 + factor * seen[0][faces[e]], height / 2 - factor * seen[1][faces[e]]);
+        }
         pen.closePath();
         pen.fill();
-        if (each.opacity === 1) pen.stroke();
+        if (opacity === 1) pen.stroke();
       }
       pen.globalAlpha = 1;
     }
@@ -113,10 +125,11 @@
     let playing = shape.look.moving, visible = true, last = 0;
     function step(time) {
       if (!playing || !visible || !element.isConnected) { last = 0; return; }
+      requestAnimationFrame(step);
+      if (last && time - last < FRAME) return;
       state.phase += last ? 2 * Math.PI * (time - last) / PERIOD : 0;
       last = time;
       draw();
-      requestAnimationFrame(step);
     }
     const still = () => { if (!playing) draw(); };
     element.addEventListener("pointerdown", event => element.setPointerCapture(event.pointerId));
