@@ -100,7 +100,7 @@ def unstable_fields(outcomes, model, bodies):
                                 for name in ("near", "reduced", "residual"))
     return {"unstable_operating": [number for number, *_ in unstable], "unstable_root": roots,
             "unstable_reduced": reduced, "unstable_residual": residual, "unstable_shape": shapes,
-            "unstable_diameters": diameters(model, shapes), **_planes(model, shapes), "body_name": names,
+            "unstable_diameters": diameters(model, shapes), **planes(model, shapes), "body_name": names,
             "unstable_share": np.reshape([o.shares[k] for _, o, k in unstable], (count, len(names))),
             "growth_term": terms, "unstable_growth": np.reshape([list(g.values()) for g in growth],
                                                                 (count, len(terms))),
@@ -126,8 +126,8 @@ def diameters(model, shapes):
     return describe(position, motion)[0] if len(position) and len(shapes) else np.full(len(shapes), -1)
 
 
-def _planes(model, shapes):
-    """Fields on the motion of the disc in and out of its plane."""
+def planes(model, shapes):
+    """Fields of ComplexModes on the motion of the disc in and out of its plane in the ``shapes`` (g, v, 3)."""
     position, motion = _of_disc(model, shapes)
     none = np.full(len(shapes), -1)
     made = by_plane(position, motion) if len(position) and len(shapes) else (none, none, 0.0 * none)
