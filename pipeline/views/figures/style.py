@@ -63,16 +63,18 @@ def png(figure, dpi):
 
 def animated(draw, count, duration, most=3_000_000):
     """Picture that moves: animated PNG, in few colours, of the ``count`` Pictures that ``draw(k)`` gives, each for
-    ``duration`` ms; frames are left out evenly until it holds ``most`` bytes."""
+    ``duration`` ms, beginning with the last, which is printed; others are left out evenly until it holds ``most``
+    bytes."""
     from PIL import Image
 
-    step, drawn, last = 1, {}, None
+    step, drawn, last = 1, {}, draw(count - 1)
     while True:
-        for k in range(0, count, step):
+        shown = [count - 1, *range(0, count - 1, step)]
+        for k in shown:
             if k not in drawn:
-                last = draw(k)
-                drawn[k] = Image.open(BytesIO(last.image)).convert("RGB").quantize(64, dither=Image.Dither.NONE)
-        first, *others = (drawn[k] for k in range(0, count, step))
+                picture = draw(k) if k < count - 1 else last
+                drawn[k] = Image.open(BytesIO(picture.image)).convert("RGB").quantize(64, dither=Image.Dither.NONE)
+        first, *others = (drawn[k] for k in shown)
         stream = BytesIO()
         first.save(stream, format="PNG", save_all=True, append_images=others, duration=duration, loop=0)
         if stream.tell() <= most or step >= count:
