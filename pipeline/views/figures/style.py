@@ -121,11 +121,15 @@ def tiles(axes, pressure, speed, values, texts, label, **look):
     return colour_bar(axes, shown, label)
 
 
+#: inches between a legend and the edge of its figure
+_EDGE = 0.08
+
+
 def legend(axes, columns=3):
     """Legend above the axes, where it hides no line: in fewer columns where it is too wide; the figure grows where it
     is too high."""
     figure, made = axes.figure, None
-    while made is None or (columns > 0 and made.get_window_extent().x1 > figure.bbox.x1):
+    while made is None or (columns > 0 and made.get_window_extent().x1 > figure.bbox.x1 - _EDGE * figure.dpi):
         made = axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.2)
         columns -= 1
     missing = (made.get_window_extent().y1 - figure.bbox.y1) / figure.dpi + 0.02
