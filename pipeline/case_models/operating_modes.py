@@ -13,7 +13,7 @@ import numpy as np
 
 from pipeline.case_models.friction_paths import followed, path_fields
 from pipeline.case_models.full_matrices import Mode, full_modes
-from pipeline.physics.modal.disc_modes import describe
+from pipeline.physics.modal.disc_modes import by_plane, describe
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import first_of_each
 from pipeline.physics.stability.growth_balance import EFFECTS, HARD, Losses, body_shares, growth_terms
@@ -100,7 +100,7 @@ def unstable_fields(outcomes, model, bodies):
                                 for name in ("near", "reduced", "residual"))
     return {"unstable_operating": [number for number, *_ in unstable], "unstable_root": roots,
             "unstable_reduced": reduced, "unstable_residual": residual, "unstable_shape": shapes,
-            "unstable_diameters": diameters(model, shapes), "body_name": names,
+            "unstable_diameters": diameters(model, shapes), **planes(model, shapes), "body_name": names,
             "unstable_share": np.reshape([o.shares[k] for _, o, k in unstable], (count, len(names))),
             "growth_term": terms, "unstable_growth": np.reshape([list(g.values()) for g in growth],
                                                                 (count, len(terms))),
@@ -122,11 +122,23 @@ def path_fields_of(outcomes, model, settings, context):
 
 def diameters(model, shapes):
     """Nodal diameters (g,) of the disc in the ``shapes`` (g, v, 3) on the surface; -1 without a disc."""
+    position, motion = _of_disc(model, shapes)
+    return describe(position, motion)[0] if len(position) and len(shapes) else np.full(len(shapes), -1)
+
+
+def planes(model, shapes):
+    """Fields of ComplexModes on the motion of the disc in and out of its plane in the ``shapes`` (g, v, 3)."""
+    position, motion = _of_disc(model, shapes)
+    none = np.full(len(shapes), -1)
+    made = by_plane(position, motion) if len(position) and len(shapes) else (none, none, 0.0 * none)
+    return dict(zip(("unstable_in_plane", "unstable_out_of_plane", "unstable_axial"), made, strict=True))
+
+
+def _of_disc(model, shapes):
+    """Surface nodes (d, 3) of the disc, none in a system without one, and the shapes (3d, g) there."""
     names = list(model.body_name)
     on_disc = model.visible_body == (names.index(DISC) if DISC in names else -1)
-    if not on_disc.any() or not len(shapes):
-        return np.full(len(shapes), -1)
-    return describe(model.visible_position[on_disc], shapes[:, on_disc].reshape(len(shapes), -1).T)[0]
+    return model.visible_position[on_disc], shapes[:, on_disc].reshape(len(shapes), 3 * int(on_disc.sum())).T
 
 
 def _normalised(shape):

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=6)
+@product(version=7)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -26,6 +26,9 @@ class ComplexModes:
     unstable_residual: Array = quantity("1", "unstable", "residual on the full finite-element matrices over its stiffness forces; -1 without these")
     unstable_shape: Array = quantity("1", "unstable visible xyz", "their shapes on the surface nodes, largest = 1", complex)
     unstable_diameters: Array = count("unstable", "nodal diameters of the disc in it; -1 in a system without a disc")
+    unstable_in_plane: Array = count("unstable", "nodal diameters of the motion of the disc in its plane; -1 without a disc")
+    unstable_out_of_plane: Array = count("unstable", "nodal diameters of its motion out of its plane; -1 without a disc")
+    unstable_axial: Array = quantity("1", "unstable", "share out of plane of the squared motion of its surface; 0 without a disc")
     body_name: Array = text("body", "bodies in order")
     unstable_share: Array = quantity("1", "unstable body", "share of each body in its kinetic energy")
     growth_term: Array = text("term", "what feeds or dissipates energy: friction at a body, contact damping, damping of a body or at a group of joints, ...; their sum is the growth rate")

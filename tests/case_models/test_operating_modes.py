@@ -6,7 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.case_models.operating_modes import balances, diameters, growing, path_fields_of, unstable_fields
+from pipeline.case_models.operating_modes import (
+    balances,
+    diameters,
+    growing,
+    path_fields_of,
+    planes,
+    unstable_fields,
+)
 from pipeline.case_models.steady_sliding import posed
 from pipeline.contract import Context
 from pipeline.physics.friction.dry_friction import constant
@@ -74,5 +81,20 @@ def test_balances_of_a_mode_add_up_to_its_growth_rate():
 
 
 def test_a_system_without_a_disc_has_no_diameters():
-    plain = SimpleNamespace(body_name=("pin",), visible_body=np.zeros(2, int))
+    plain = SimpleNamespace(body_name=("pin",), visible_body=np.zeros(2, int), visible_position=np.zeros((2, 3)))
     assert diameters(plain, np.ones((2, 2, 3))).tolist() == [-1, -1]
+    assert planes(plain, np.ones((2, 2, 3)))["unstable_in_plane"].tolist() == [-1, -1]
+
+
+@pytest.mark.exact
+def test_diameters_of_the_disc_alone_are_counted_in_each_plane():
+    """A pad, which moves otherwise, is left out: 3 diameters tangentially, 5 axially with twice the amplitude."""
+    angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    ring = np.stack((np.cos(angle), np.sin(angle), 0 * angle), axis=1)
+    model = SimpleNamespace(body_name=("pad", "disc"), visible_body=np.repeat([1, 0], 24),
+                            visible_position=np.vstack((ring, ring)))
+    turned = np.stack((-np.sin(angle), np.cos(angle), 0 * angle), axis=1) * np.exp(3j * angle)[:, None]
+    disc = turned + 2 * np.exp(5j * angle)[:, None] * [0, 0, 1]
+    made = planes(model, np.concatenate((disc, 9 * ring))[None])
+    assert made["unstable_in_plane"].tolist() == [3] and made["unstable_out_of_plane"].tolist() == [5]
+    assert made["unstable_axial"] == pytest.approx([0.8])

@@ -1,8 +1,12 @@
 """One report of small products, shared by the tests that read it."""
 
+import re
+
 import pytest
 
 from pipeline.contract import Context
+from pipeline.views.figures import style
+from pipeline.views.figures.plotted.columns import Table
 from stages.report import Settings, report
 from tests.views import products_for_views as small
 
@@ -12,3 +16,24 @@ def html():
     """The page of all small products, with few and coarse pictures."""
     few = Settings(dots_per_inch=50, mode_pictures=1)
     return report(small.products(), settings=few, context=Context(case=small.case())).html.item()
+
+
+@pytest.fixture(autouse=True)
+def every_picture_has_its_data_with_units_and_nothing_is_clipped(monkeypatch):
+    """Whatever a test draws has columns with names of their own and, where they hold numbers, with units; all of it is
+    within the picture."""
+    drawn, numbers = [], style.numbers
+
+    def record(figure):
+        drawn.append((numbers(figure), figure.get_tightbbox().extents, figure.get_size_inches()))
+        return drawn[-1][0]
+
+    monkeypatch.setattr(style, "numbers", record)
+    yield
+    for (panels, series), (left, bottom, right, top), (width, height) in drawn:
+        columns = Table.of(series).columns
+        assert len({column.name for column in columns}) == len(columns)
+        assert all(len(column.values) for column in columns)
+        assert not [c.name for c in columns if c.values.dtype.kind != "U" and not re.search(r" / \S", c.name)]
+        assert {item.panel for item in series} <= set(range(len(panels)))
+        assert min(left, bottom, width - right, height - top) > -0.02, (left, bottom, width - right, height - top)

@@ -301,6 +301,8 @@ def complex_modes(stable=False):
         unstable_root=at[operating, which][order], unstable_reduced=at[operating, which][order],
         unstable_residual=np.full(len(operating), -1.0),
         unstable_shape=shape, unstable_diameters=np.full(len(operating), 5),
+        unstable_in_plane=np.full(len(operating), 2), unstable_out_of_plane=np.full(len(operating), 5),
+        unstable_axial=np.full(len(operating), 0.87),
         body_name=["disc", "pad_outer", "pad_inner", "caliper"],
         unstable_share=np.tile([0.7, 0.2, 0.1, 0.0], (len(operating), 1)),
         growth_term=["friction at pad_outer", "friction at pad_inner", "contact damping",

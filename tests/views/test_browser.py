@@ -28,15 +28,48 @@ document.title = JSON.stringify({{wide: inside.documentElement.scrollWidth, imag
 broken: images.filter(i => !i.naturalWidth).length, text: inside.querySelector("h1").textContent}}); }})
 </script>"""
 
+#: what a reader does with a page: moves the pointer over a curve and over a large map, enlarges one, turns a mode
+READER = """<!DOCTYPE html><title>reader</title><link rel="icon" href="data:,"><body style="margin:0">
+<iframe style="border:0" width="1280" height="60000" srcdoc="{page}"></iframe><script>
+addEventListener("load", async () => {{
+const page = document.querySelector("iframe").contentDocument, view = page.defaultView;
+const wait = () => new Promise(done => setTimeout(done, 400)), tip = page.querySelector(".tip"), made = {{}};
+const at = (target, kind, x, y) => {{ const frame = target.getBoundingClientRect();
+  target.dispatchEvent(new view.PointerEvent(kind, {{bubbles: true, clientX: frame.left + x * frame.width,
+    clientY: frame.top + y * frame.height}})); }};
+for (const [name, chapter, index] of [["curve", "complex_modes", 2], ["map", "surface", 0]]) {{
+  const image = page.querySelectorAll(`#${{chapter}} figure img`)[index];
+  for (let y = 0.2; y < 0.8 && !made[name]; y += 0.05) {{
+    at(image, "pointermove", 0.5, y); await wait(); made[name] = tip.hidden ? "" : tip.textContent; }}
+}}
+at(page.querySelector("h1"), "pointermove", 0.5, 0.5); await wait(); made.hidden = tip.hidden;
+page.querySelector("figure .picture[data-places]").click();
+const large = page.querySelector("dialog[open] .picture");
+large.dispatchEvent(new view.WheelEvent("wheel", {{bubbles: true, deltaY: -400, clientX: 400, clientY: 300}}));
+made.zoom = large.style.transform; page.querySelector("dialog").close();
+await wait(); made.closed = !page.querySelector("dialog");
+const figure = [...page.querySelectorAll("figure")].find(f => f.querySelector(".turn"));
+if (figure) {{ figure.querySelector(".turn").click(); await wait(); await wait();
+  const canvas = figure.querySelector("canvas"), first = canvas.toDataURL();
+  canvas.setPointerCapture = () => 0;
+  at(canvas, "pointerdown", 0.5, 0.5);
+  canvas.dispatchEvent(new view.PointerEvent("pointermove",
+    {{bubbles: true, buttons: 1, movementX: 40, movementY: 9}}));
+  const later = canvas.toDataURL();
+  made.turned = first !== later && Math.min(first.length, later.length) > 10000;
+  made.controls = figure.querySelectorAll("input").length; }}
+document.title = JSON.stringify(made); }})
+</script>"""
+
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on this machine (Debian package 'chromium')")
 
 
-def opened(folder, html):
+def opened(folder, html, *flags):
     """Open ``html`` as a file: (document after loading, console lines, requests of the page that leave the file)."""
     page, log = folder / "report.html", folder / "net.json"
     page.write_text(html, encoding="utf-8")
     run = subprocess.run([CHROMIUM, *FLAGS, f"--user-data-dir={folder / 'profile'}", f"--log-net-log={log}",
-                          "--window-size=1280,4000", page.as_uri()],
+                          "--window-size=1280,4000", *flags, page.as_uri()],
                          capture_output=True, text=True, timeout=120, check=True)
     console = [line for line in run.stderr.splitlines() if ":CONSOLE:" in line]
     return run.stdout, console, _requests(json.loads(log.read_text()))
@@ -84,6 +117,17 @@ def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
     assert "hidden effects correctly named and located" in found["text"] and found["wide"] == width
     assert found["images"] == 9 and found["broken"] == 0 and not console and not requests
+
+
+def test_a_reader_sees_values_zooms_and_turns_a_mode(html, tmp_path):
+    """Where this machine draws pictures in three dimensions; values under the pointer anywhere."""
+    document, console, requests = opened(tmp_path, READER.format(page=escape(html)), "--virtual-time-budget=20000")
+    made = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
+    assert "coefficient of friction: " in made["curve"] and "kHz: growth rate: " in made["curve"]
+    assert "height: " in made["map"] and " µm" in made["map"] and made["hidden"]
+    assert "scale(1." in made["zoom"] and made["closed"]
+    assert made.get("turned", True) and made.get("controls", 1) in (1, 2)
+    assert console == [] and requests == []
 
 
 def test_a_page_that_speaks_or_asks_is_caught(tmp_path):

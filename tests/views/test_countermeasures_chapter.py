@@ -83,7 +83,7 @@ def test_pictures_change_with_what_they_show():
     product = countermeasures()
     rows = distinct(product, 0)
     drawn = [pictures.dumbbells(product, rows, [(120.0, after)] * len(rows)) for after in (-20.0, -20.0, 30.0, None)]
-    assert drawn[0] == drawn[1] and len(set(drawn)) == 3 and drawn[0].startswith("<?xml")
+    assert drawn[0] == drawn[1] and len(set(drawn)) == 3 and drawn[0].image.startswith("<?xml")
     assert pictures.probabilities(product) != pictures.probabilities(replace(product, overall=0.5))
 
 

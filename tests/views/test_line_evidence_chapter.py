@@ -93,4 +93,4 @@ def test_of_the_cycle_it_is_said_what_has_time_to_be_heard():
 
 def test_a_hypothesis_without_any_tone_is_drawn():
     silent = replace(WEIGHED, tone_hypothesis=np.full(len(WEIGHED.tone), 2))
-    assert line_fit_pictures.before_after(silent, list(silent.hypothesis)).startswith("<?xml")
+    assert line_fit_pictures.before_after(silent, list(silent.hypothesis)).image.startswith("<?xml")

@@ -110,15 +110,16 @@ def test_a_picture_shows_its_data_with_the_same_bytes_twice(name):
     draw, build, field = PICTURES[name]
     product = build()
     first = draw(product)
-    assert first.startswith(b"\x89PNG") if isinstance(first, bytes) else "<svg" in first
+    assert first.image.startswith(b"\x89PNG") if isinstance(first.image, bytes) else "<svg" in first.image
     assert draw(product) == first
+    assert first.csv.count("\n") > 1
     values = getattr(product, field)
     assert draw(replace(product, **{field: values * np.linspace(0.7, 1.1, values.size).reshape(values.shape)})) != first
 
 
 def test_a_line_drawing_says_neither_when_nor_by_whom_it_was_drawn():
     picture = surfaces.power_spectrum(small.surface())
-    assert "<dc:" not in picture
+    assert "<dc:" not in picture.image
 
 
 def test_harmonics_look_different_from_own_tones():
@@ -192,9 +193,9 @@ def test_an_animation_moves_and_keeps_its_size():
     from PIL import Image
 
     whole = rupture.animation(small.rupture(), 50)
-    assert Image.open(BytesIO(whole)).n_frames == 3
-    shorter = rupture.animation(small.rupture(), 50, most=len(whole) - 1)
-    assert len(shorter) < len(whole)
+    assert Image.open(BytesIO(whole.image)).n_frames == 3
+    shorter = rupture.animation(small.rupture(), 50, most=len(whole.image) - 1)
+    assert len(shorter.image) < len(whole.image)
 
 
 def test_the_interface_shows_its_state():

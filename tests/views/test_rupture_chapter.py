@@ -27,7 +27,7 @@ def test_the_chapter_tells_fronts_waves_and_doubts():
     assert waves.rows[3][1] == "1036" and written.tables[2].rows[0][2] == "100\u202f%"
     assert [t.title for t in written.tables[3:]] == ["Study: Mesh and memory", "Study: Shear over pressure",
                                                      "Study: Stiffness damping"]
-    assert len(written.figures) == 10 and written.figures[0].image.startswith(b"\x89PNG")
+    assert len(written.figures) == 10 and written.figures[0].picture.image.startswith(b"\x89PNG")
 
 
 def test_what_did_not_happen_is_said():

@@ -13,8 +13,20 @@ def describe(node, shape):
     The diameters come from the Fourier components of the cylindrical displacement on the rim, as many as its nodes
     tell; the share is that of the squared nodal displacements.
     """
+    power = _around(node, shape)
+    return np.argmax(power.sum(axis=0), axis=0), _axial(node, shape)
+
+
+def by_plane(node, shape):
+    """Nodal diameters (m,) of the in-plane motion and (m,) of the out-of-plane motion of the same modes, and the
+    out-of-plane share (m,)."""
+    radial, tangential, axial = _around(node, shape)
+    return np.argmax(radial + tangential, axis=0), np.argmax(axial, axis=0), _axial(node, shape)
+
+
+def _around(node, shape):
+    """Power (radial tangential axial, order, mode) of the waves around the rim."""
     motion = shape.reshape(len(node), 3, -1)
-    energy = (np.abs(motion)**2).sum(axis=0)
     radius, angle = np.hypot(node[:, 0], node[:, 1]), np.arctan2(node[:, 1], node[:, 0])
     rim = radius > radius.max() * (1 - _ROUNDED)
     around = 1 + np.count_nonzero(np.diff(np.sort(angle[rim])) > _SAME)
@@ -23,6 +35,11 @@ def describe(node, shape):
     cylindrical = np.stack((c * x + s * y, c * y - s * x, z))
     orders = np.arange(min(_MOST_DIAMETERS, around // 2) + 1)
     wave = np.exp(-1j * orders[:, None] * angle[rim])
-    power = sum((np.abs(wave @ part)**2).sum(axis=0) for part in (cylindrical.real, cylindrical.imag))
-    power = power * np.where(orders > 0, 2, 1)[:, None]
-    return np.argmax(power, axis=0), energy[2] / energy.sum(axis=0)
+    power = np.abs(wave @ cylindrical.real)**2 + np.abs(wave @ cylindrical.imag)**2
+    return power * np.where(orders > 0, 2, 1)[:, None]
+
+
+def _axial(node, shape):
+    """Share (m,) of the axial direction in the squared displacements."""
+    energy = (np.abs(shape.reshape(len(node), 3, -1))**2).sum(axis=0)
+    return energy[2] / energy.sum(axis=0)

@@ -3,6 +3,8 @@
 import base64
 from dataclasses import dataclass
 
+from pipeline.views.figures.plotted.picture import Picture, data_uri
+
 
 @dataclass(frozen=True)
 class Look:
@@ -14,18 +16,28 @@ class Look:
 
 @dataclass(frozen=True)
 class Figure:
-    """A picture (PNG or WebP bytes, or SVG text) and a caption that states its numbers."""
+    """A Picture (or PNG or WebP bytes without numbers) and a caption that states its numbers."""
 
-    image: bytes | str
+    image: Picture | bytes
     caption: str
     small: bool = False
 
     @property
+    def picture(self):
+        """The Picture."""
+        return self.image if isinstance(self.image, Picture) else Picture(self.image)
+
+    @property
     def uri(self):
         """The picture as a data URI."""
-        kind = "svg+xml" if isinstance(self.image, str) else "webp" if self.image[:4] == b"RIFF" else "png"
-        data = self.image.encode() if isinstance(self.image, str) else self.image
+        image = self.picture.image
+        kind = "svg+xml" if isinstance(image, str) else "webp" if image[:4] == b"RIFF" else "png"
+        data = image.encode() if isinstance(image, str) else image
         return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+
+    def data(self, name):
+        """(Data URI, file name) of its numbers as CSV, the file named after ``name``; None without numbers."""
+        return data_uri(self.picture.csv, name) if self.picture.csv else None
 
 
 @dataclass(frozen=True)

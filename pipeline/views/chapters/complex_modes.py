@@ -8,6 +8,7 @@ from pipeline.views.chapters.unstable_modes import blocks, distinct_unstable, si
 from pipeline.views.figures import complex_modes as pictures
 from pipeline.views.figures import mode_shapes
 from pipeline.views.figures.number_format import number, percent, quantity, span
+from pipeline.views.figures.plotted.picture import in_space
 from pipeline.views.figures.scene import render
 
 TWO_PI = 2.0 * np.pi
@@ -22,7 +23,8 @@ def chapter(modes, model, published, look):
     """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
     drawable = model is not None and len(model.visible_face)
     chosen = list(map(int, modes.followed_mode)) if drawable and look.shapes else []
-    rendered = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
+    scenes = [mode_shapes.unstable_mode(model, modes, index) for index in chosen]
+    rendered = in_space(scenes, render(scenes))
     pictures = dict(zip(chosen, rendered or (), strict=False))
     return Chapter(
         "complex_modes", "Stability of steady sliding",
@@ -85,23 +87,35 @@ def _table(modes, most=12):
                      str(modes.operating_open[point])))
     head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
     title = "Unstable modes, most unstable first, each frequency once"
-    return Table(head, tuple(rows), title, tuple(range(7))), _reasons(modes, chosen), *_in_full(modes, chosen)
+    return (Table(head, tuple(rows), title, tuple(range(7))), _shapes(modes, chosen), _reasons(modes, chosen),
+            *_in_full(modes, chosen))
+
+
+def _shapes(modes, chosen):
+    """What moves in each mode: the disc in and out of its plane, and each body."""
+    disc = (modes.unstable_diameters[list(chosen)] >= 0).any()
+    rows = []
+    for k in chosen:
+        planes = (str(modes.unstable_in_plane[k]), str(modes.unstable_out_of_plane[k]),
+                  percent(modes.unstable_axial[k], 2)) if disc else ()
+        rows.append((quantity(modes.unstable_root[k].imag / TWO_PI, "Hz", 5), *planes,
+                     *(number(100 * share, 2) for share in modes.unstable_share[k])))
+    head = ("frequency", *("diameters in plane", "diameters out of plane", "disc motion out of plane") * bool(disc),
+            *(f"{words(name)} / %" for name in modes.body_name))
+    of_disc = ("nodal diameters of the disc in and out of its plane, the share out of plane of its squared motion, and"
+               " the " if disc else "")
+    return Table(head, tuple(rows), f"What moves in them: {of_disc}share of each body in the kinetic energy",
+                 tuple(range(len(head))))
 
 
 def _reasons(modes, chosen):
-    """What moves in each mode, and what feeds or dissipates its energy."""
-    rows = []
-    for index in chosen:
-        diameters, share = modes.unstable_diameters[index], modes.unstable_share[index]
-        bodies = ", ".join(f"{words(modes.body_name[b])} {percent(share[b], 2)}" for b in np.argsort(-share)[:2])
-        rows.append((quantity(modes.unstable_root[index].imag / TWO_PI, "Hz", 4),
-                     str(diameters) if diameters >= 0 else "", bodies,
-                     *map(signed, summed(modes, index)[1])))
-    head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(t, words(t).replace(_FRICTION, "at "))
-                                                       for t in summed(modes, chosen[0])[0]))
+    """What feeds or dissipates the energy of each mode."""
+    rows = [(quantity(modes.unstable_root[k].imag / TWO_PI, "Hz", 4), *map(signed, summed(modes, k)[1]))
+            for k in chosen]
+    head = ("frequency", *(_SHORT.get(t, words(t).replace(_FRICTION, "at ")) for t in summed(modes, chosen[0])[0]))
     title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s, first"
-             " of friction at each body; nodal diameters of the disc; the bodies that move most")
-    return Table(head, tuple(rows), title, (0, 1, *range(3, len(head))))
+             " of friction at each body")
+    return Table(head, tuple(rows), title, tuple(range(len(head))))
 
 
 def _in_full(modes, chosen):

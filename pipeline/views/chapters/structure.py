@@ -5,6 +5,7 @@ import numpy as np
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures import mode_shapes, preload
 from pipeline.views.figures.number_format import number, percent, plural, quantity, span
+from pipeline.views.figures.plotted.picture import in_space
 from pipeline.views.figures.scene import render
 
 COLOURS = "In pictures of modes, orange and purple move in opposite axial directions; white is at rest."
@@ -18,7 +19,7 @@ def chapter(structure, modes, look):
     loads = preload.loads(structure, modes)
     selected = mode_shapes.distinct(structure.disc.frequency, look.shapes)
     scenes = [mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, mode) for mode in selected)]
-    pictures = render(scenes)
+    pictures = in_space(scenes, render(scenes))
     figures = (_pads(structure, modes, loads, look),)
     if pictures:
         figures = (_assembly(structure, pictures[0]), *figures, *(

@@ -14,7 +14,7 @@ def agreement(comparison):
     deviation = (comparison.ours[rows] - comparison.published[rows]) / comparison.tolerance[rows]
     with drawing(0.8 + 0.29 * len(rows), left=2.15, top=0.1) as figure:
         axes = figure.subplots()
-        axes.axvspan(-1, 1, color="#dfeaf3", lw=0)
+        axes.axvspan(-1, 1, color="#dfeaf3", lw=0, label="_tolerance")
         axes.axvline(0, color=FAINT, lw=0.9)
         for position, (row, value) in enumerate(zip(rows, deviation, strict=True)):
             _dot(axes, position, value, bool(comparison.tuned[row]))
@@ -41,7 +41,8 @@ def _dot(axes, position, value, tuned):
     face = "white" if tuned else colour
     beyond = abs(value) > 3.2
     marker = (">" if value > 0 else "<") if beyond else ("o" if abs(value) <= 1.0 else "D")
-    axes.plot(np.clip(value, -3.2, 3.2), position, marker=marker, color=colour, mfc=face, ms=5.5, mew=1.4)
+    axes.plot(np.clip(value, -3.2, 3.2), position, marker=marker, color=colour, mfc=face, ms=5.5, mew=1.4,
+              label="_tuned" if tuned else "_predicted")
     if beyond:
         axes.annotate(number(value, 2), (np.clip(value, -3.2, 3.2), position), fontsize=7, color=INK, va="center",
                       xytext=(-7 if value > 0 else 7, 0), textcoords="offset points",

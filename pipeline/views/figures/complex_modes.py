@@ -63,8 +63,9 @@ def lock_in(modes, width=0.05):
     near = (np.abs(frequency - middle) < reach).any(axis=0)
     with drawing(3.4) as figure:
         axes = figure.subplots()
-        axes.plot(modes.friction, frequency[:, near], ".", color=FAINT, ms=3.5)
-        axes.plot(modes.friction, np.where(roots.real > 0.0, frequency, np.nan)[:, near], "o", color=RED, ms=5.5)
+        axes.plot(modes.friction, frequency[:, near], ".", color=FAINT, ms=3.5, label="_mode")
+        axes.plot(modes.friction, np.where(roots.real > 0.0, frequency, np.nan)[:, near], "o", color=RED, ms=5.5,
+                  label="_unstable")
         axes.set(xlabel="coefficient of friction", ylabel=f"frequency / {name}",
                  ylim=(middle * (1 - width), middle * (1 + width)) if middle else None)
         return svg(figure)

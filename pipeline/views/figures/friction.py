@@ -21,7 +21,7 @@ def over_distance(micro, what):
             if what == "friction":
                 half = micro.friction_std[p, middle]
                 axes.fill_between(1e3 * micro.distance, values[p, middle] - half, values[p, middle] + half,
-                                  color=COLOURS[p % 6], alpha=0.2, lw=0)
+                                  color=COLOURS[p % 6], alpha=0.2, lw=0, label=f"_{pressure / 1e6:.3g} MPa")
         axes.set(xlabel="sliding distance / mm", ylabel=label, xlim=(0, None))
         legend(axes)
         return svg(figure)
@@ -61,7 +61,7 @@ def bearing(micro):
         axes = figure.subplots()
         for body, colour in (("disc", COLOURS[0]), ("pad", COLOURS[1])):
             heights = {"disc": micro.disc_bearing, "pad": micro.pad_bearing}[body]
-            for record, line, label in ((0, "--", None), (-1, "-", body)):
+            for record, line, label in ((0, "--", f"_{body}, new"), (-1, "-", body)):
                 axes.plot(100 * micro.bearing_share, 1e6 * heights[record], color=colour, ls=line, label=label)
         axes.set(xlabel="share of the area above / %", ylabel="height / µm", xlim=(0, 100))
         legend(axes)
@@ -103,6 +103,7 @@ def _over_points(product, values, label, layout):
     with drawing(3.5, bar=True) as figure:
         axes = figure.subplots()
         shown = axes.contourf(speed, pressure / 1e6, values, levels=_levels(values), cmap=SEQUENTIAL)
+        shown.plotted = speed, pressure / 1e6, values
         _mark_computed(axes, product, speed, pressure)
         axes.set(xlabel="sliding speed / m/s", ylabel="pressure / MPa")
         axes.grid(False)
@@ -119,9 +120,10 @@ def _mark_computed(axes, product, speed, pressure):
     outside = ((first, bottom, last - first, low - bottom), (first, high, last - first, top - high),
                (first, low, left - first, high - low), (right, low, last - right, high - low))
     for x, y, width, height in outside:
-        axes.add_patch(Rectangle((x, y), width, height, facecolor="none", edgecolor="white", hatch="///", lw=0))
-    axes.hlines(product.computed_pressure / 1e6, left, right, color=ORANGE, lw=2)
-    axes.vlines(product.computed_speed, low, high, color=ORANGE, lw=2)
+        axes.add_patch(Rectangle((x, y), width, height, facecolor="none", edgecolor="white", hatch="///", lw=0,
+                                 label="_"))
+    axes.hlines(product.computed_pressure / 1e6, left, right, color=ORANGE, lw=2, label="_computed pressure")
+    axes.vlines(product.computed_speed, low, high, color=ORANGE, lw=2, label="_computed speed")
 
 
 def _widened(axis, computed):

@@ -35,8 +35,8 @@ def path(modes, follow, other):
                 lower.plot(friction[known], root[known].real, color=colour, ls=line)
         for axes in (upper, lower):
             axes.axvline(critical, color=FAINT, lw=1.1, ls=":")
-        upper.plot(friction[-1], roots[0][-1].imag / TWO_PI / scale, "o", color=RED)
-        lower.plot(friction[-1], roots[0][-1].real, "o", color=RED)
+        upper.plot(friction[-1], roots[0][-1].imag / TWO_PI / scale, "o", color=RED, label="_operating point")
+        lower.plot(friction[-1], roots[0][-1].real, "o", color=RED, label="_operating point")
         lower.axhline(0.0, color=INK, lw=0.9)
         upper.set(ylabel=f"frequency / {unit}")
         upper.ticklabel_format(axis="y", useOffset=False)
@@ -71,9 +71,9 @@ def contact_maps(position, area, body, parts, names, dpi):
                                    clim=(-limit, limit), lw=0.8, edgecolors="face")
             axes.add_collection(shown)
             axes.autoscale_view()
-            axes.set(title=name, aspect="equal")
+            axes.set(title=name, aspect="equal", xlabel="x / mm", ylabel="y / mm")
             axes.set_axis_off()
-        bar = colour_bar(panels[-1], shown, "1/s per cm²")
+        bar = colour_bar(panels[-1], shown, "growth rate by area / (1/s)/cm²")
         bar.ax.ticklabel_format(useOffset=False)
         return png(figure, dpi)
 

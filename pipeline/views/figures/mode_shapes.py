@@ -66,7 +66,7 @@ def distinct(frequency, count):
 
 
 def _displaced(points, cells, kind, displacement):
-    size = np.ptp(points, axis=0).max()
     largest = max(np.linalg.norm(displacement, axis=1).max(), 1e-300)
-    axial = displacement[:, 2] / max(np.percentile(np.abs(displacement[:, 2]), 92), 1e-300)
-    return Solid(points + _EXAGGERATED * size / largest * displacement, cells, kind, scalar=axial)
+    motion = _EXAGGERATED * np.ptp(points, axis=0).max() / largest * displacement
+    limit = max(np.percentile(np.abs(motion[:, 2]), 92), 1e-300)
+    return Solid(points, cells, kind, motion=motion, limit=limit)

@@ -27,22 +27,21 @@ _PERIOD = 1600
 
 @dataclass(frozen=True)
 class Solid:
-    """One body of a picture: cells over points, coloured by a scalar per point or by one colour."""
+    """One body of a picture: cells over points, coloured by its axial motion or by one colour."""
 
-    points: np.ndarray          # (point, xyz) in m, already displaced
+    points: np.ndarray          # (point, xyz) in m, at rest
     cells: np.ndarray           # (cell, vertex)
     kind: str                   # key of CELLS, or mixed
-    scalar: np.ndarray | None = None    # (point,), -1 ... 1
     colour: str = "#9aa3ad"
     edges: bool = False
     opacity: float = 1.0
-    motion: np.ndarray | None = None    # (point, xyz) complex, in m about points at rest; colour = its axial part
+    motion: np.ndarray | None = None    # (point, xyz), real or complex, in m; colour = its axial part
     limit: float = 1.0          # axial motion of full colour, in m
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period, one for a still."""
+    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period (linear cells), or 1."""
 
     solids: tuple
     direction: tuple = (0.45, -1.0, 1.1)
@@ -77,7 +76,7 @@ def draw(scene):
     plotter.camera.zoom(1.25)
     pictures = []
     for frame in range(scene.frames):
-        for solid, skin in zip(scene.solids, skins, strict=True):
+        for solid, skin in zip(scene.solids, skins, strict=True) if frame else ():
             _move(solid, skin, np.exp(2j * np.pi * frame / scene.frames))
         plotter.render()
         pictures.append(plotter.screenshot(return_img=True))
@@ -86,22 +85,22 @@ def draw(scene):
 
 
 def _add(plotter, solid, pyvista):
-    cells = {pyvista.CellType[CELLS[kind][1]]: each[:, :CELLS[kind][0]] for kind, each in _blocks(solid)}
-    grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points, dtype=float))
-    scalar = solid.scalar if solid.motion is None else solid.motion[:, 2].real / solid.limit
-    if scalar is not None:
-        grid.point_data["colour"] = scalar
+    cells = {pyvista.CellType[CELLS[kind][1]]: each[:, :CELLS[kind][0]] for kind, each in blocks(solid)}
+    motion = 0.0 if solid.motion is None else solid.motion.real
+    grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points + motion, dtype=float))
+    if solid.motion is not None:
+        grid.point_data["colour"] = motion[:, 2] / solid.limit
     skin = grid.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=0 if solid.edges else 2)
     look = {"show_edges": solid.edges, "edge_color": "#3a4048", "line_width": 1, "smooth_shading": False,
             "opacity": solid.opacity}
-    if scalar is None:
+    if solid.motion is None:
         plotter.add_mesh(skin, color=solid.colour, **look)
     else:
         plotter.add_mesh(skin, scalars="colour", cmap="PuOr_r", clim=(-1, 1), show_scalar_bar=False, **look)
     return skin
 
 
-def _blocks(solid):
+def blocks(solid):
     """[(kind, cells)] of a solid."""
     if solid.kind != "mixed":
         return [(solid.kind, solid.cells)]

@@ -11,6 +11,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from pipeline.views.figures.plotted.artists import numbers
+from pipeline.views.figures.plotted.picture import Picture
+
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
 INK, FAINT = "#222222", "#8a8f98"
 COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
@@ -45,34 +48,37 @@ def drawing(height=HEIGHT, left=0.72, right=0.15, top=None, bar=False):
 
 
 def svg(figure):
-    """SVG text of a figure; no date, no creator, fixed identifiers."""
+    """Picture of a figure as SVG text; no date, no creator, fixed identifiers."""
     stream = BytesIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
-    return stream.getvalue().decode()
+    return Picture(stream.getvalue().decode(), *numbers(figure))
 
 
 def png(figure, dpi):
-    """PNG bytes of a figure, without metadata."""
+    """Picture of a figure as PNG bytes, without metadata."""
     stream = BytesIO()
     figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": None})
-    return stream.getvalue()
+    return Picture(stream.getvalue(), *numbers(figure))
 
 
 def animated(draw, count, duration, most=3_000_000):
-    """Animated PNG, in few colours, of the ``count`` PNG bytes that ``draw(k)`` gives, each for ``duration`` ms; frames
-    are left out evenly until it holds ``most`` bytes."""
+    """Picture that moves: animated PNG, in few colours, of the ``count`` Pictures that ``draw(k)`` gives, each for
+    ``duration`` ms, beginning with the last, which is printed; others are left out evenly until it holds ``most``
+    bytes."""
     from PIL import Image
 
-    step, drawn = 1, {}
+    step, drawn, last = 1, {}, draw(count - 1)
     while True:
-        for k in range(0, count, step):
+        shown = [count - 1, *range(0, count - 1, step)]
+        for k in shown:
             if k not in drawn:
-                drawn[k] = Image.open(BytesIO(draw(k))).convert("RGB").quantize(64, dither=Image.Dither.NONE)
-        first, *others = (drawn[k] for k in range(0, count, step))
+                picture = draw(k) if k < count - 1 else last
+                drawn[k] = Image.open(BytesIO(picture.image)).convert("RGB").quantize(64, dither=Image.Dither.NONE)
+        first, *others = (drawn[k] for k in shown)
         stream = BytesIO()
         first.save(stream, format="PNG", save_all=True, append_images=others, duration=duration, loop=0)
         if stream.tell() <= most or step >= count:
-            return stream.getvalue()
+            return Picture(stream.getvalue(), last.panels, last.series, moving=True)
         step += 1
 
 
@@ -115,9 +121,29 @@ def tiles(axes, pressure, speed, values, texts, label, **look):
     return colour_bar(axes, shown, label)
 
 
+#: inches between a legend and the edge of its figure
+_EDGE = 0.08
+
+
 def legend(axes, columns=3):
-    """Legend above the axes, where it hides no line."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.2)
+    """Legend above the axes, where it hides no line: in fewer columns where it is too wide; the figure grows where it
+    is too high."""
+    figure, made = axes.figure, None
+    while made is None or (columns > 0 and made.get_window_extent().x1 > figure.bbox.x1 - _EDGE * figure.dpi):
+        made = axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.2)
+        columns -= 1
+    missing = (made.get_window_extent().y1 - figure.bbox.y1) / figure.dpi + 0.02
+    if missing > 0:
+        _raise_top(figure, missing)
+
+
+def _raise_top(figure, inches):
+    """More room at the top of a figure whose axes keep their size."""
+    width, height = figure.get_size_inches()
+    ends, ratio = figure.subplotpars, height / (height + inches)
+    bottom, top = ends.bottom * ratio, ends.top * ratio
+    figure.set_size_inches(width, height + inches)
+    figure.subplots_adjust(bottom=bottom, top=top)
 
 
 def readable_on(shown, value):

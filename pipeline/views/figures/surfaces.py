@@ -22,10 +22,10 @@ def profile(surface):
     with drawing(2.6, top=0.12) as figure:
         axes = figure.subplots()
         x = 1e3 * surface.x
-        axes.fill_between(x, lower.min() - 4, lower, color=COLOURS[0], alpha=0.35, lw=0)
-        axes.fill_between(x, upper, upper.max() + 4, color=COLOURS[1], alpha=0.35, lw=0)
-        axes.plot(x, lower, color=COLOURS[0], lw=0.9)
-        axes.plot(x, upper, color=COLOURS[1], lw=0.9)
+        axes.fill_between(x, lower.min() - 4, lower, color=COLOURS[0], alpha=0.35, lw=0, label="_")
+        axes.fill_between(x, upper, upper.max() + 4, color=COLOURS[1], alpha=0.35, lw=0, label="_")
+        axes.plot(x, lower, color=COLOURS[0], lw=0.9, label=f"_{surface.body[0]}")
+        axes.plot(x, upper, color=COLOURS[1], lw=0.9, label=f"_{surface.body[1]}")
         axes.text(0.01, 0.03, surface.body[0], transform=axes.transAxes, color=INK)
         axes.text(0.01, 0.97, surface.body[1], transform=axes.transAxes, va="top", color=INK)
         axes.set(xlabel="along sliding x / mm", ylabel="height / µm")

@@ -94,11 +94,11 @@ def band_levels(squeal, operatings, sensor):
     with drawing() as figure:
         axes = figure.subplots()
         for line, operating in enumerate(operatings):
-            axes.step(squeal.band, squeal.band_level[operating, sensor], where="mid", color=COLOURS[line % 6],
+            axes.step(squeal.band / 1e3, squeal.band_level[operating, sensor], where="mid", color=COLOURS[line % 6],
                       ls=LINES[line % 6], label=_operating(squeal, operating))
         axes.set_xscale("log")
-        labelled = squeal.band[:: max(1, len(squeal.band) // 6)]
-        axes.set_xticks(labelled, [f"{f / 1e3:.3g}" for f in labelled])
+        labelled = squeal.band[:: max(1, len(squeal.band) // 6)] / 1e3
+        axes.set_xticks(labelled, [f"{f:.3g}" for f in labelled])
         axes.set_xticks([], minor=True)
         axes.set(xlabel="third-octave band / kHz", ylabel="velocity level / dB")
         legend(axes)
@@ -115,7 +115,8 @@ def _frame(axes, product, marked):
 
     column, row = (np.unique(v, return_inverse=True)[1] for v in (product.speed, product.pressure))
     for x, y in zip(column[marked], row[marked], strict=True):
-        axes.add_patch(Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, fill=False, ec=RED, lw=2.5))
+        axes.add_patch(Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, fill=False, ec=RED, lw=2.5,
+                                 label="_squeal"))
 
 
 def _decades(density):

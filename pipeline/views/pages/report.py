@@ -45,6 +45,8 @@ from pipeline.views.figures.models import rupture as rupture_pictures
 from pipeline.views.pages import case_settings as case_view
 from pipeline.views.pages.limits import limits
 from pipeline.views.pages.summary import published_squeal, verdict
+from pipeline.views.pages.system import system
+from pipeline.views.pages.template import template
 from pipeline.views.pages.to_measure import statement, to_measure
 
 #: what a chapter may be given besides products: the squeal frequencies among the published facts
@@ -113,7 +115,7 @@ def page(chapters, products, case, look):
     silent = set(CHAPTERS) & set(products) - {chapter.anchor for chapter in chapters}
     methods = tuple((stage, sentence) for stage, sentence in case_view.methods(case) if stage not in silent)
     return template().render(
-        case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
+        case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)), system=system(products),
         key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
         measure=to_measure(case, products), measure_note=statement(case, products), stages=case_view.stages(case),
         methods=methods, limits=limits(products))
@@ -152,12 +154,3 @@ def _key_figure(products, look):
     if len(squeal.pressure) == 1 and products.get("transient") is not None:
         return transient.loudest(products["transient"], squeal, look)
     return Figure(sound_pictures.occurrence(squeal, look.dpi), vibration.occurrence_caption(squeal))
-
-
-def template():
-    """The template of every page."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(loader=PackageLoader("pipeline.views"), autoescape=True, undefined=StrictUndefined,
-                              trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("report.html.j2")

@@ -6,8 +6,8 @@ from pipeline.views.chapters.bench import trial as chapters
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.figures.bench.trial import rates
 from pipeline.views.figures.number_format import number, percent, plural
-from pipeline.views.pages.report import template
 from pipeline.views.pages.summary import Verdict
+from pipeline.views.pages.template import template
 
 #: rates of the first screen
 _FIRST = ("type and place, one effect", "both of a pair", "false alarms", "not in the catalogue: unknown",

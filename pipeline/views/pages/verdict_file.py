@@ -84,10 +84,12 @@ def _unstable(modes):
     """One entry for each unstable mode at each operating point, strongest first."""
     found, squeals = [], squealing(modes)
     for k, (root, point) in enumerate(zip(modes.unstable_root, modes.unstable_operating, strict=True)):
-        diameters = int(modes.unstable_diameters[k])
+        diameters, in_plane, out_of_plane = (int(counts[k]) if counts[k] >= 0 else None for counts in (
+            modes.unstable_diameters, modes.unstable_in_plane, modes.unstable_out_of_plane))
         found.append({
             "frequency": root.imag / TWO_PI, "growth_rate": root.real, "damping_ratio": -root.real / abs(root),
-            "squeal": bool(squeals[k]), "nodal_diameters": diameters if diameters >= 0 else None,
+            "squeal": bool(squeals[k]), "nodal_diameters": diameters, "nodal_diameters_in_plane": in_plane,
+            "nodal_diameters_out_of_plane": out_of_plane,
             "pressure": float(modes.operating_pressure[point]), "speed": float(modes.operating_speed[point]),
             "friction": float(modes.operating_friction[point]),
             "bodies": _named(modes.body_name, modes.unstable_share[k]),

@@ -1,6 +1,11 @@
 """The page: every section, the case's settings, nothing from outside."""
 
+import base64
+import csv
+import hashlib
 import re
+import zipfile
+from io import BytesIO, StringIO
 from pathlib import Path
 
 import pytest
@@ -29,7 +34,30 @@ def test_nothing_is_loaded_from_outside(html):
     assert all(source.startswith(("data:", "#")) for source in sources)
     assert "url(" not in html
     assert "@import" not in html
-    assert "<script" not in html
+
+
+def test_only_the_scripts_of_the_template_may_run(html):
+    policy, = re.findall(r'http-equiv="Content-Security-Policy" content="([^"]*)"', html)
+    scripts = re.findall(r"<script>(.*?)</script>", html, re.DOTALL)
+    digests = {f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in scripts}
+    assert scripts and html.count("<script") == len(scripts)
+    assert set(re.search(r"script-src ([^;]*)", policy)[1].split()) == digests
+
+
+def test_every_figure_has_its_data_beside_it(html):
+    """A row of numbers or more below a head with units; the files are named after the case and the figure."""
+    figures = re.findall(r"<figure.*?</figure>", html, re.DOTALL)
+    for number, figure in enumerate(figures, 1):
+        (name, kind, data), = re.findall(r'download="([^"]*)" href="data:([\w/]+);base64,([^"]*)"', figure)
+        content = base64.b64decode(data)
+        if kind == "application/zip":
+            content = zipfile.ZipFile(BytesIO(content)).read(name.removesuffix(".zip"))
+        head, *rows = csv.reader(StringIO(content.decode()))
+        assert name.removesuffix(".zip") == f"small_figure_{number}.csv" and rows and " / " in "".join(head)
+
+
+def test_a_file_of_data_says_if_it_is_of_the_last_frame(html):
+    assert "data of the last frame (CSV)" in html
 
 
 def test_the_squeal_can_be_heard_and_says_what_it_is(html):

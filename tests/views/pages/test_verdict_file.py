@@ -27,6 +27,7 @@ def test_modes_convergence_and_headline_are_there():
     first = told["unstable_modes"][0]
     assert first["frequency"] == pytest.approx(modes.unstable_root[0].imag / (2 * np.pi))
     assert first["growth_rate"] == modes.unstable_root[0].real and first["damping_ratio"] < 0
+    assert (first["nodal_diameters_in_plane"], first["nodal_diameters_out_of_plane"]) == (2, 5)
     assert first["nodal_diameters"] == 5 and first["bodies"]["disc"] == 0.7
     assert set(first["growth_by_term"]) == set(map(str, modes.growth_term)) and first["finite_elements"] is None
     assert told["convergence"]["converged"] and set(told["convergence"]["refinements"]) == set(refined.refinement)

@@ -11,9 +11,11 @@ def stabilisation(modes, dpi):
     with drawing(4.6, top=0.14) as figure:
         above, below = figure.subplots(2, sharex=True, height_ratios=(1, 1.4))
         kilohertz = modes.line / 1e3
-        above.semilogy(kilohertz, modes.measured, color=FAINT, lw=1.6)
-        above.semilogy(kilohertz, modes.fitted, color=COLOURS[0], lw=0.8)
-        above.set(ylabel="responses, rms")
+        above.semilogy(kilohertz, modes.measured, color=FAINT, lw=1.6, label="_measured")
+        above.semilogy(kilohertz, modes.fitted, color=COLOURS[0], lw=0.8, label="_fitted")
+        low, high = above.get_ylim()
+        above.set(ylabel="responses, rms", ylim=(low / 2, 8 * high) if high < 10 * low else (low, high))
+        above.yaxis.set_minor_formatter("")
         for rows, colour, size in ((modes.stable == 0, FAINT, 1.5), ((modes.stable == 1) & (modes.chosen < 0),
                                                                       COLOURS[0], 3.0), (modes.chosen >= 0, RED, 3.0)):
             below.plot(modes.pole_frequency[rows] / 1e3, modes.order[rows], "o", color=colour, ms=size, mew=0)

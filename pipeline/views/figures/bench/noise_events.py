@@ -41,9 +41,10 @@ def spectrogram(product, record, dpi):
                 continue
             begin, height = product.event_start[k], product.event_frequency[k] / 1e3
             axes.plot([begin, begin + product.event_duration[k]], [height, height], lw=4.5, color="white", alpha=0.55,
-                      solid_capstyle="butt")
+                      solid_capstyle="butt", label="_")
             axes.plot([begin, begin + product.event_duration[k]], [height, height], lw=1.4,
-                      color=KINDS[str(product.event_kind[k])], solid_capstyle="butt")
+                      color=KINDS[str(product.event_kind[k])], solid_capstyle="butt",
+                      label=f"_{product.event_kind[k]}")
         axes.set(xlabel="time / s", ylabel="frequency / kHz", ylim=(0, shown.frequency[-1] / 1e3))
         _modes(axes, product, shown)
         axes.grid(False)
@@ -62,7 +63,7 @@ def _modes(axes, product, shown):
     for k, whole in zip(inside, named, strict=True):
         height = product.mode_frequency[k] / 1e3
         axes.plot([begin, end if whole else begin + 0.02 * (end - begin)], [height, height], color="white", lw=0.7,
-                  zorder=1.5, ls="--" if product.mode_unstable[k] else ":")
+                  zorder=1.5, ls="--" if product.mode_unstable[k] else ":", label="_modes")
         if whole and height - last > 0.04 * shown.frequency[-1] / 1e3:
             last = height
             name = f"{product.mode_name[k]}{', unstable' if product.mode_unstable[k] == 1 else ''}"

@@ -30,7 +30,8 @@ def campbell(one, dpi):
         top = min(one.frequency[-1], 1.5 * max(*drawn, 4.0) * right / 60.0)
         for order in drawn:
             end = min(right, 60.0 * top / order)
-            axes.plot([0.0, end], [0.0, order * end / 60.0], color="white", lw=0.8, ls="--")
+            axes.plot([0.0, end], [0.0, order * end / 60.0], color="white", lw=0.8, ls="--",
+                      label=f"_order {number(order, 3)}")
             axes.annotate(number(order, 3), (end, order * end / 60.0), (-4, 2), textcoords="offset points",
                           fontsize=8.5, color="white", ha="right")
         axes.set(xlabel="speed / rpm", ylabel="frequency / Hz", xlim=(rpm(one.edge[0]), right), ylim=(0, top))

@@ -42,11 +42,12 @@ def _dumbbell(axes, height, state, pair):
     before, after = pair
     colour, mark, line = _LOOKS[state]
     if before is not None and after is not None:
-        axes.plot([before, after], [height, height], color=colour, ls=line, lw=1.5, zorder=2)
+        axes.plot([before, after], [height, height], color=colour, ls=line, lw=1.5, zorder=2, label="_")
     if before is not None:
-        axes.plot(before, height, "o", color=INK, mfc="white", ms=5, zorder=3)
+        axes.plot(before, height, "o", color=INK, mfc="white", ms=5, zorder=3, label="_before")
     if after is not None:
-        axes.plot(after, height, mark, color=colour, ms=7, mew=2 if mark == "|" else 1, zorder=4, clip_on=False)
+        axes.plot(after, height, mark, color=colour, ms=7, mew=2 if mark == "|" else 1, zorder=4, clip_on=False,
+                  label=f"_after, {state}")
 
 
 def _frequency(product, row):

@@ -75,7 +75,7 @@ def length_map(lock_in):
 
 def case_motion(lock_in, case):
     """Figures 11 to 15: the last milliseconds and the spectra of disc and pin; lines: the paper's numbers."""
-    with drawing(height=4.9, top=0.62) as figure:
+    with drawing(height=4.9, top=0.62, right=0.2) as figure:
         above, below = figure.subplots(2, 1)
         for body, (name, colour, line) in enumerate((("disc", BLUE, "-"), ("pin", RED, "--"))):
             above.plot(1e3 * lock_in.trace_time, 1e3 * lock_in.trace[case, body], color=colour, ls=line, lw=1.0,

@@ -66,8 +66,8 @@ def _interface(axes, rupture, frame):
     cuts = np.flatnonzero(np.diff(state)) + 1
     for part in np.split(np.arange(state.size), cuts):
         ends = np.r_[part, min(part[-1] + 1, state.size - 1)]
-        colour = (STICK, SLIP, OPEN)[state[part[0]]]
-        axes.plot(x[ends], 0.0 * ends, color=colour, lw=2.2, solid_capstyle="butt", zorder=3)
+        colour, name = ((STICK, "_sticks"), (SLIP, "_slips"), (OPEN, "_open"))[state[part[0]]]
+        axes.plot(x[ends], 0.0 * ends, color=colour, lw=2.2, solid_capstyle="butt", zorder=3, label=name)
 
 
 def animation(rupture, dpi, most=3_000_000):

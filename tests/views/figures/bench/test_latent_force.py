@@ -21,11 +21,11 @@ def predicted():
 
 
 def test_the_force_is_drawn_over_what_it_follows():
-    assert "explains 80 %" in pictures.latent_force(diagnosis("unknown"), "bang")
+    assert "explains 80 %" in pictures.latent_force(diagnosis("unknown"), "bang").image
 
 
 def test_the_prediction_is_drawn_beside_that_without_it(predicted):
-    drawn = pictures.with_latent_force(predicted, "pulses")
+    drawn = pictures.with_latent_force(predicted, "pulses").image
     assert "with the latent force" in drawn and "recalibrated" in drawn
 
 
