@@ -66,9 +66,12 @@ def statement(case, products):
     defaults = sum(row[3] == DEFAULT for row in rows)
     if not rows:
         return ""
-    return (f"{plural(defaults, 'value')} that {'decides' if defaults == 1 else 'decide'} this verdict"
-            f" {'is a default' if defaults == 1 else 'are defaults'} of the program, {len(rows) - defaults} more are"
-            " assumed: the answer is of a typical brake as far as they go.")
+    counted = ((defaults, "defaults of the program", "a default of the program"),
+               (len(rows) - defaults, "assumed", "assumed"))
+    told = [f"{number} {'is ' + one if number == 1 else 'are ' + several}" for number, several, one in counted
+            if number]
+    return (f"Of the values that decide this verdict, {' and '.join(told)}: the answer is of a typical brake as far as"
+            " they go.")
 
 
 def _rows(case, products):
