@@ -88,8 +88,6 @@ def test_workers_end_with_their_parent(tmp_path):
 
 
 def _gone(pid, patience=10.0):
-    import time
-
     end = time.monotonic() + patience
     while time.monotonic() < end:
         try:
@@ -112,7 +110,7 @@ if __name__ == "__main__":
     work.map(abs, [1, 2], lambda: None)
     threading.Timer(6.0, lambda: os.killpg(0, signal.SIGINT)).start()
     try:
-        work.map(time.sleep, [60, 60], lambda: None)
+        work.map(time.sleep, [900, 900], lambda: None)
     except KeyboardInterrupt:
         work.close()
         print("stopped")
@@ -120,9 +118,8 @@ if __name__ == "__main__":
 
 
 def test_ctrl_c_ends_two_workers_without_a_traceback(tmp_path):
-    """The signal of a terminal goes to all processes of its group."""
+    """The signal of a terminal goes to all processes of its group; tasks would take a quarter of an hour."""
     (tmp_path / "main.py").write_text(_INTERRUPTED)
-    begin = time.perf_counter()
-    done = subprocess.run([sys.executable, "main.py"], cwd=tmp_path, capture_output=True, text=True, timeout=50,
+    done = subprocess.run([sys.executable, "main.py"], cwd=tmp_path, capture_output=True, text=True, timeout=300,
                           start_new_session=True, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])})
-    assert done.stdout == "stopped\n" and done.stderr == "" and time.perf_counter() - begin < 45
+    assert done.stdout == "stopped\n" and done.stderr == ""
