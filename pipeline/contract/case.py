@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 from copy import deepcopy
 from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
@@ -17,6 +18,11 @@ from pipeline.contract.received import confined
 #: top-level keys beside the sections of the stages
 HEAD = ("chain", "title", "description", "solver", "based_on")
 SOLVERS = ("auto", "pypardiso", "superlu")
+
+
+def _as_text(name):
+    """A name of the file system as text, also where the locale knows no such letters."""
+    return os.fsencode(name).decode("utf-8", "replace")
 
 
 @dataclass(frozen=True)
@@ -114,8 +120,8 @@ class CaseFile:
         values = {name: {key: _file_name(value) for key, value in rows.items()} for name, rows in values.items()}
         origins = {s.name: {key: _origin(self.given(s), key.split(".")) for key in values[s.name]} for s in self.stages}
         methods = {s.name: s.method for s in self.stages}
-        return CaseSummary(self.name, self.document.get("title", ""), self.document.get("description", ""), values,
-                           origins, units, meanings, methods, version)
+        name, title, description = _as_text(self.name), *(self.document.get(k, "") for k in ("title", "description"))
+        return CaseSummary(name, title, description, values, origins, units, meanings, methods, version)
 
 
 def _file_name(value):
