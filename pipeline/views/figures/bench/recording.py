@@ -8,6 +8,8 @@ from pipeline.views.figures.style import COLOURS, FAINT, MARKERS, drawing, legen
 
 #: channels that one picture shows
 MOST = 8
+#: size of letters in points times their number in a label beside one channel
+_LETTERS = 115.0
 
 
 def largest(channel):
@@ -50,5 +52,6 @@ def _channel(axes, name, channel, colour):
     axes.plot(begin + index / rate, samples / size, color=colour, lw=0.7)
     for first, last in channel.missing:
         axes.axvspan(begin + first / rate, begin + last / rate, color=FAINT, alpha=0.4, lw=0)
-    axes.set(ylabel=name if unit == "1" else f"{name} / {unit}",
-             xlim=(begin, begin + max(len(channel.samples) - 1, 1) / rate))
+    label = name if unit == "1" else f"{name} / {unit}"
+    axes.set(ylabel=label, xlim=(begin, begin + max(len(channel.samples) - 1, 1) / rate))
+    axes.yaxis.label.set_size(min(axes.yaxis.label.get_size(), _LETTERS / len(label)))
