@@ -91,7 +91,8 @@ def killed(case, workers, folder, whole, moments):
 
 
 def without_workers(case, folder, whole, moments):
-    """The same where at each moment after the last one of two Dask workers dies, and another one joins."""
+    """The same where at each moment after the last one of two Dask workers dies, and another one joins; a run that has
+    been given up is begun again."""
     struck = wrong = 0
     with ExitStack() as stack:
         address = address_of(stack.enter_context(scheduler()))
@@ -100,9 +101,8 @@ def without_workers(case, folder, whole, moments):
         run = begun(case, folder, ("--scheduler", address))
         for k, moment in enumerate(moments):
             try:
-                if run.wait(moment):
-                    return struck, wrong
-                shutil.rmtree(folder)
+                if run.wait(moment) == 0:
+                    shutil.rmtree(folder)       # else given up: Dask tries a task on four workers at most
                 run = begun(case, folder, ("--scheduler", address))
             except subprocess.TimeoutExpired:
                 kill(spare.pop(0))

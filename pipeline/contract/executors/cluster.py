@@ -70,7 +70,8 @@ class DaskCluster:
         except Exception as error:      # whatever the code there raises
             answers["the scheduler"] = error
         wrong = [f"{answer if isinstance(answer, Exception) else 'other code'} ({machine})"
-                 for machine, answer in answers.items() if answer != self._code]
+                 for machine, answer in answers.items()
+                 if answer != self._code and not isinstance(answer, OSError)]       # lost while it was asked
         if wrong:
             raise ConfigError("--scheduler", f"brakechain {__version__} with the same code on the scheduler and its"
                               " workers as here", "; ".join(wrong), "install it in their environments and restart them")

@@ -2,10 +2,11 @@
 
 import threading
 import time
+from types import SimpleNamespace
 
 import pytest
 
-from pipeline.contract import BrakechainError
+from pipeline.contract import BrakechainError, ConfigError
 from pipeline.contract.executors import InProcess, choose, cluster
 from tests.contract.executors.dask_processes import address_of, kill, process, scheduler, worker
 from tests.contract.executors.test_local import running, work
@@ -99,6 +100,17 @@ def test_certificates_are_those_of_dasks_configuration(tmp_path, monkeypatch):
                                    "distributed.comm.tls.client.key": str(paths["tls_client_key"])}),
                   running(choose(1, address)) as executor):
                 assert executor.map(work, range(2), lambda: None) == InProcess().map(work, range(2), lambda: None)
+
+
+def test_a_worker_lost_while_its_code_is_asked_for_is_no_other_code():
+    asked = object.__new__(cluster.DaskCluster)
+    answers = {"tcp://a": OSError("Stream is closed"), "tcp://b": "mine"}
+    asked._client = SimpleNamespace(run=lambda *_, **__: answers, run_on_scheduler=lambda *_: "mine")
+    asked._code = "mine"
+    asked._check_code()
+    answers["tcp://b"] = "yours"
+    with pytest.raises(ConfigError, match=r"found other code \(tcp://b\); install"):
+        asked._check_code()
 
 
 def test_a_scheduler_that_is_lost_is_told_in_one_sentence(tmp_path):
