@@ -68,13 +68,9 @@ def unit_of(folder, wanted=None):
     modes, model, friction_map, effects = sliding_products(folder)
     operating = operating_point(modes, wanted)
     state = sliding_state(modes, model, friction_map, effects, operating)
-    about, settings = state.about, state.settings
-    matrices = about.linearised(state.friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
-    inputs, sensors = _interface(about)
-    outputs = [(f"{n}.{seen}", f"{seen} at the sensor {n} about steady sliding", unit) for n in sensors
-               for seen, unit in _OBSERVED]
-    form = modal_form(matrices, with_inputs(about, model.input_area).input_rows, about.sensor_rows)
-    return Unit(inputs, tuple(outputs),
+    about = state.about
+    form = modal_form(state.linearised, with_inputs(about, model.input_area).input_rows, about.sensor_rows)
+    return Unit(*_interface(about.input_name, about.sensor_name, _OBSERVED),
                 f"reduced sliding model linearised about operating point {described(modes, operating)}", form)
 
 
@@ -84,24 +80,25 @@ def contact_unit_of(folder, wanted, step):
     modes = product_of(ComplexModes, folder)
     operating = operating_point(modes, wanted)
     motion = ContactMotion.of(folder, operating, step)
-    inputs, sensors = _interface(motion.bench.model, len(motion.steady) - len(motion.origin) - 1)
-    outputs = [(f"{n}.{seen}", f"{seen} at the sensor {n} about steady sliding", unit) for n in sensors
-               for seen, unit in _OBSERVED[:2]]
-    outputs += [("contacts.normal_force", "normal force of all contacts", "N"),
-                ("contacts.friction_force", "friction force of all contacts along sliding", "N")]
+    given, sensors = motion.bench.model.input_name, motion.bench.model.sensor_name
+    inputs, outputs = _interface(given[1:len(given) - len(sensors)], sensors, _OBSERVED[:2])
+    forces = (("contacts.normal_force", "normal force of all contacts", "N"),
+              ("contacts.friction_force", "friction force of all contacts along sliding", "N"))
     files = (folder / f"{cls.name}.h5" for cls in (ComplexModes, ReducedModel, FrictionMap, Effects))
-    return Unit(inputs, tuple(outputs), f"reduced sliding model with its contacts, from operating point"
+    return Unit(inputs, outputs + forces, f"reduced sliding model with its contacts, from operating point"
                 f" {described(modes, operating)}", products=tuple(f for f in files if f.exists()), operating=operating,
                 step=step)
 
 
-def _interface(model, count=None):
-    """(inputs of a unit, safe names of the sensors) of a SlidingModel; ``count``: of its inputs that are its own."""
-    own = model.input_name if count is None else model.input_name[1:count + 1]
-    names, sensors = safe_names(own), safe_names(model.sensor_name)
-    return (("pressure", "change of the nominal pad pressure", "Pa"),
-            *((f"force.{n}", f"force on the input {n} beside the steady one", "N") for n in names),
-            *((f"force_at.{n}", f"force at the sensor {n}, in its direction", "N") for n in sensors)), sensors
+def _interface(given, sensors, observed):
+    """(inputs, outputs) of a unit: of the inputs ``given`` and the ``sensors`` of a model, by name, at which (quantity,
+    unit) are ``observed``."""
+    given, sensors = safe_names(given), safe_names(sensors)
+    inputs = (("pressure", "change of the nominal pad pressure", "Pa"),
+              *((f"force.{n}", f"force on the input {n} beside the steady one", "N") for n in given),
+              *((f"force_at.{n}", f"force at the sensor {n}, in its direction", "N") for n in sensors))
+    return inputs, tuple((f"{n}.{seen}", f"{seen} at the sensor {n} about steady sliding", unit) for n in sensors
+                         for seen, unit in observed)
 
 
 def write_fmu(unit, path, source):

@@ -67,7 +67,7 @@ class SteadySliding(Fmi2Slave):
         self.about = about = json.loads((self.folder / "interface.json").read_text(encoding="utf-8"))
         self.modelName, self.description, self.version = about["name"], about["description"], about["version"]
         self.guid, self.inputs = UUID(about["guid"]), np.zeros(len(about["inputs"]))
-        self.exit_initialization_mode()
+        self.motion = (contacts if "operating" in about else ComplexModes)(self.folder, about)
         self.units = {name: unit for name, _, unit in (*about["inputs"], *about["outputs"])}
         for k, (name, meaning, _) in enumerate(about["inputs"]):
             self.register_variable(Real(name, causality=Fmi2Causality.input, description=meaning, start=0.0,
@@ -93,10 +93,6 @@ class SteadySliding(Fmi2Slave):
             if variable.get("causality") == "output":
                 SubElement(unknowns, "Unknown", index=str(index))
         return root
-
-    def exit_initialization_mode(self):
-        """Start in steady sliding."""
-        self.motion = (contacts if "operating" in self.about else ComplexModes)(self.folder, self.about)
 
     def do_step(self, current_time, step_size):
         """Whether a step of ``step_size`` s could be done; what prevents it stands in the log."""

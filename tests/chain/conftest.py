@@ -1,6 +1,5 @@
 """One undisturbed run of the quick case, made once for all tests of the chain."""
 
-import hashlib
 import shutil
 import subprocess
 import sys
@@ -8,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.contract import store
-from pipeline.contract.integrity import seen
 from stages import CHAINS
+from tests.chain.run_contents import everything
 
 ROOT = Path(__file__).parents[2]
 NAMES = CHAINS["disc_brake"]
@@ -27,10 +25,8 @@ def brakechain(*args, code=0):
 
 def contents(folder):
     """File -> content hash of every product in a run folder, and SHA-256 of what stands beside them."""
-    products = {name: store.identity(folder / f"{name}.h5")[2] for name in NAMES if (folder / f"{name}.h5").exists()}
-    beside = (p for p in folder.iterdir() if p.name != seen.LIST
-              and p.suffix in (".csv", ".html", ".json", ".inp", ".adm", ".txt"))
-    return products | {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in beside}
+    return {name.removesuffix(".h5"): digest for name, digest in everything(folder).items()
+            if Path(name).suffix in (".h5", ".csv", ".html", ".json", ".inp", ".adm", ".txt")}
 
 
 @pytest.fixture(scope="session")

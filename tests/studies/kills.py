@@ -9,7 +9,6 @@ data/studies/kills.csv; a case that stands there is not killed again.
 
 import argparse
 import csv
-import hashlib
 import os
 import shutil
 import signal
@@ -22,8 +21,8 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.contract import store
 from pipeline.contract.runner import git_commit
+from tests.chain.run_contents import everything
 from tests.contract.executors.dask_processes import address_of, kill, scheduler, worker
 from tests.studies.ledger import FOLDER
 
@@ -46,14 +45,6 @@ class Undisturbed:
     seconds: float
 
 
-def contents(folder):
-    """{file: digest} of products, by what they hold, and of what stands beside them, byte for byte."""
-    beside = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in folder.iterdir()
-              if p.is_file() and p.suffix != ".h5" and not p.name.startswith(".")}
-    return beside | {p.name: identity and identity[2] for p in folder.glob("[!.]*.h5")
-                     for identity in (store.identity(p),)}
-
-
 def begun(case, folder, options):
     """A run of a case in a process group of its own."""
     command = [sys.executable, "-m", "pipeline", "run", str(ROOT / "configs" / f"{case}.yaml"), "--run", str(folder)]
@@ -66,12 +57,13 @@ def undisturbed(case, folder, options=("--workers", "1")):
     begin = time.monotonic()
     if begun(case, folder, options).wait(_LONGEST):
         raise RuntimeError(f"{case}: the undisturbed run fails")
-    return Undisturbed(contents(folder), time.monotonic() - begin)
+    return Undisturbed(everything(folder), time.monotonic() - begin)
 
 
 def damaged(folder, whole):
     """Number of files in a folder that are not those of the undisturbed run."""
-    return sum(whole.content.get(name) != digest for name, digest in contents(folder).items()) if folder.exists() else 0
+    held = everything(folder) if folder.exists() else {}
+    return sum(whole.content.get(name) != digest for name, digest in held.items())
 
 
 def killed(case, workers, folder, whole, moments):
@@ -121,7 +113,7 @@ def solved(case, executor, folder, whole, kills, seed):
     else:
         struck, wrong = killed(case, executor, folder, whole, random.uniform(0.3, 0.95 * whole.seconds, kills))
     ended = begun(case, folder, ("--workers", "1")).wait(_LONGEST) == 0
-    recovered = ended and contents(folder) == whole.content
+    recovered = ended and everything(folder) == whole.content
     return (case, executor, kills, struck, wrong, "yes" if recovered else "no", f"{time.monotonic() - begin:.0f}",
             git_commit()[:10])
 

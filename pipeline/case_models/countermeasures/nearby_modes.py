@@ -8,11 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.case_models.effect_block import conditions, physics_terms
-from pipeline.case_models.scatter import stability_settings
-from pipeline.case_models.steady_sliding import mapped_friction, posed
+from pipeline.case_models.matrices.sliding_terms import sliding_at
 from pipeline.physics.modal.nearest_modes import modes_near
-from pipeline.physics.stability.growth_balance import Losses
 
 #: modes sought about each target, and shift of the target beside a root, as a share of it
 NEAREST, _BESIDE = 24, 1 + 1e-4
@@ -32,20 +29,11 @@ class Brake:
 
 def system_of(brake, operating):
     """((M, C, K) each (n, n), Settling or None) of a Brake about steady sliding at an operating point, an index."""
-    points, model = stability_settings(brake.modes), brake.model
-    pressure, speed = brake.modes.operating_pressure[operating], float(brake.modes.operating_speed[operating])
-    state = int(np.argmin(abs(model.pressure - pressure)))
-    case = posed(model, state, speed, points.damping_speed, physics_terms(brake.effects), conditions(brake.effects))
-    sliding = case.seeking.slide(case.response(points.centrifugal), model.pressure[state] * model.input_area,
-                                 *mapped_friction(brake.friction_map, points.sliding_distance), points)
-    about = sliding.about(case.bench.model)
-    friction, beside = sliding.acting(points.friction_slopes), sliding.beside(about, points.friction_slopes)
-    mass, damping, stiffness = about.linearised(friction, points.friction_damping, points.gyroscopic,
-                                                points.centrifugal)
-    more = Losses.of(model).enlarged(about.size).change(case.base.model) if points.hysteretic else None
+    state = sliding_at(brake.modes, brake.model, brake.friction_map, brake.effects, operating)
+    (mass, damping, stiffness), more = state.linearised, state.hysteretic
     if more is not None:
         damping, stiffness = damping + more[0], stiffness + more[1]
-    return (mass, damping, stiffness), beside
+    return (mass, damping, stiffness), state.beside
 
 
 def among(root, roots, within=_SAME):

@@ -53,32 +53,48 @@ class SlidingState:
             return None
         return self.losses.enlarged(self.about.size).change(self.posed.base.model)
 
+    @property
+    def beside(self):
+        """Settling of effects with states of their own beside the model, None without any."""
+        return self.sliding.beside(self.about, self.settings.friction_slopes)
 
-def sliding_state(modes, model, friction_map, effects, operating):
+    @property
+    def linearised(self):
+        """(M, C, K), each (n, n), without what makes loss factors hysteretic."""
+        points = self.settings
+        return self.about.linearised(self.friction, points.friction_damping, points.gyroscopic, points.centrifugal)
+
+
+def sliding_at(modes, model, friction_map, effects, operating):
     """SlidingState of the products ComplexModes, ReducedModel, FrictionMap or None, Effects or None, at an operating
-    point, an index of the first.
-
-    Raises ConfigError for contacts that do not yield and for effects with states of their own, neither of which
-    matrices can hold; ProductError for products that do not belong together.
-    """
+    point, an index of the first."""
     settings = stability_settings(modes)
     pressure, speed = modes.operating_pressure[operating], float(modes.operating_speed[operating])
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, speed, settings.damping_speed, physics_terms(effects), conditions(effects))
     sliding = case.seeking.slide(case.response(settings.centrifugal), model.pressure[state] * model.input_area,
                                  *sliding_friction(friction_map, model, settings), settings)
-    about = sliding.about(case.bench.model)
-    if is_hard(about):
+    return SlidingState(case, sliding, settings, sliding.about(case.bench.model), Losses.of(model))
+
+
+def sliding_state(modes, model, friction_map, effects, operating):
+    """The same where matrices can hold it.
+
+    Raises ConfigError for contacts that do not yield and for effects with states of their own, neither of which
+    matrices can hold; ProductError for products that do not belong together.
+    """
+    state = sliding_at(modes, model, friction_map, effects, operating)
+    if is_hard(state.about):
         raise ConfigError("export: contacts", "a normal stiffness, which matrices can hold", "hard contacts",
                           "give them a contact law or a stiffness")
-    if sliding.beside(about, settings.friction_slopes) is not None:
+    if state.beside is not None:
         raise ConfigError("export: effects", "forces of displacement and velocity alone", "effects with states of their"
-                          f" own, among {', '.join(t.effect.name for t in case.terms)}", "leave these out")
-    force, known = sliding.contact.force, modes.operating_force[operating]
+                          f" own, among {', '.join(t.effect.name for t in state.posed.terms)}", "leave these out")
+    force, known = state.sliding.contact.force, modes.operating_force[operating]
     if force.shape != known.shape or abs(force - known).max(initial=0.0) > _SAME * abs(known).max(initial=0.0):
         raise ProductError("export: contact forces", "those of complex_modes.h5", "others from reduced_model.h5, whose"
                            " run or effects differ", "'brakechain run' computes what is out of date")
-    return SlidingState(case, sliding, settings, about, Losses.of(model))
+    return state
 
 
 def terms_of(state):

@@ -105,13 +105,12 @@ class DaskCluster:
         pending, alone = list(futures), None
         while pending:
             try:
-                wait(pending, timeout=_LOOK, return_when="FIRST_COMPLETED")
+                finished, pending = wait(pending, timeout=_LOOK, return_when="FIRST_COMPLETED")
             except TimeoutError:
                 alone = self._alone(alone, len(pending))
                 continue
-            alone, finished = None, [future for future in pending if future.done()]
+            alone = None
             yield from finished
-            pending = [future for future in pending if future not in finished]
 
     def _alone(self, since, pending):
         """Since when no worker is there [s], or None. BrakechainError after too long, or without a scheduler."""

@@ -36,16 +36,14 @@ def steady_tones(fit):
     whole = spectrum(fit)
     if whole is None:
         return []
-    excess, own = _excess(whole), {}
-    for name in dict.fromkeys(name for run in fit.runs for name in run.channels):
-        part = spectrum(fit, name)
-        own[name] = None if part is None else (part, _excess(part))
-    significant = _significant(excess, whole)
+    excess = _excess(whole)
+    significant = _by_chance(excess, whole) < _CHANCE / max(len(excess) // FINER, 1)    # all that the length resolves
     peaks, _ = scipy.signal.find_peaks(np.concatenate(([0.0], np.where(significant, excess, 0.0), [0.0])),
                                        distance=_APART * FINER)
     peaks = peaks[np.argsort(-excess[peaks - 1])[:_MOST]] - 1
+    own = _of_channels(fit) if len(peaks) else {}
     return [Tone(float(whole.frequency[k]), float(excess[k]), tuple(
-        name for name, seen in own.items() if seen and _shows(*seen, whole.frequency[k]))) for k in peaks]
+        name for name, seen in own.items() if _shows(*seen, whole.frequency[k]))) for k in peaks]
 
 
 def told(fit):
@@ -67,6 +65,13 @@ def _as_multiple(frequency, lowest, width):
     return f" ({multiple} times that)" if abs(frequency - multiple * lowest) < _MULTIPLE * multiple * width else ""
 
 
+def _of_channels(fit):
+    """{channel: (Spectrum, excess)} of the channels whose samples have an order."""
+    names = dict.fromkeys(name for run in fit.runs for name in run.channels)
+    parts = {name: part for name in names if (part := spectrum(fit, name)) is not None}
+    return {name: (part, _excess(part)) for name, part in parts.items()}
+
+
 def _excess(spectrum):
     """Power (f,) over the density about each ordinate: the median of those near it, corrected to a mean."""
     about = scipy.ndimage.median_filter(spectrum.power, 2 * _FAR * FINER + 1, mode="mirror")
@@ -74,13 +79,12 @@ def _excess(spectrum):
     return spectrum.power / np.maximum(about / middle, np.finfo(float).tiny)
 
 
-def _significant(excess, spectrum):
-    """Whether ordinates (f,) are beyond chance, all that the length resolves taken together."""
-    resolved = max(len(excess) // FINER, 1)
-    return scipy.stats.gamma.sf(spectrum.count * excess, spectrum.count) < _CHANCE / resolved
+def _by_chance(excess, spectrum):
+    """How often noise shows an ordinate as high as ``excess`` (f,) or one number."""
+    return scipy.stats.gamma.sf(spectrum.count * excess, spectrum.count)
 
 
 def _shows(spectrum, excess, frequency):
     """Whether a line at ``frequency`` [Hz] stands out of the spectrum of one channel."""
     near = np.abs(spectrum.frequency - frequency) <= FINER * (spectrum.frequency[1] - spectrum.frequency[0])
-    return near.any() and bool(scipy.stats.gamma.sf(spectrum.count * excess[near].max(), spectrum.count) < _CHANCE)
+    return near.any() and bool(_by_chance(excess[near].max(), spectrum) < _CHANCE)

@@ -4,6 +4,7 @@ import base64
 import json
 import zipfile
 from dataclasses import dataclass, field
+from functools import cached_property
 from io import BytesIO
 
 from pipeline.views.figures.plotted.columns import Table
@@ -28,18 +29,22 @@ class Picture:
     moving: bool = False
     shape: Shape | None = field(default=None, compare=False)
 
-    @property
+    @cached_property
+    def table(self):
+        """Table of the numbers."""
+        return Table.of(self.series)
+
+    @cached_property
     def csv(self):
         """The numbers as CSV text: a column for each quantity, with its unit; empty where there are none."""
-        return Table.of(self.series).text() if self.series else ""
+        return self.table.text() if self.series else ""
 
-    @property
+    @cached_property
     def places(self):
         """JSON text: where the panels lie on the picture, and which columns are points in which panel."""
         if self.moving or not self.panels or not self.series:
             return ""
-        table = Table.of(self.series)
-        return json.dumps({"panels": [panel.place() for panel in self.panels], "series": table.places()},
+        return json.dumps({"panels": [panel.place() for panel in self.panels], "series": self.table.places()},
                           separators=(",", ":"), allow_nan=False)
 
 
