@@ -106,6 +106,7 @@ import os, signal, sys, threading, time
 from pipeline.contract.executors import LocalProcesses
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)    # what shells start in the background ignores it
     work = LocalProcesses(2)
     work.map(abs, [1, 2], lambda: None)
     threading.Timer(6.0, lambda: os.killpg(0, signal.SIGINT)).start()
