@@ -46,8 +46,9 @@ at(page.querySelector("h1"), "pointermove", 0.5, 0.5); await wait(); made.hidden
 page.querySelector("figure .picture[data-places]").click();
 const large = page.querySelector("dialog[open] .picture");
 large.dispatchEvent(new view.WheelEvent("wheel", {{bubbles: true, deltaY: -400, clientX: 400, clientY: 300}}));
-made.zoom = large.style.transform; page.querySelector("dialog").close();
-await wait(); made.closed = !page.querySelector("dialog");
+made.zoom = large.style.transform;
+const dialog = page.querySelector("dialog"), told = new Promise(done => dialog.addEventListener("close", done));
+dialog.close(); await told; made.closed = !page.querySelector("dialog");
 const figure = [...page.querySelectorAll("figure")].find(f => f.querySelector(".turn"));
 if (figure) {{ figure.querySelector(".turn").click(); await wait(); await wait();
   const canvas = figure.querySelector("canvas"), first = canvas.toDataURL();
