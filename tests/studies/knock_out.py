@@ -43,9 +43,9 @@ DRAWS = 5
 
 
 def plans(draws=DRAWS, first=500_000):
-    """``draws`` cases of every known effect at both levels of noise."""
+    """``draws`` cases of every known effect at both levels of noise; a run that is stopped has some of every one."""
     names = [name for name in HIDDEN if kind_of((name,)) == "effect"]
-    wanted = [(name, draw, level) for name in names for level in LEVELS for draw in range(draws)]
+    wanted = [(name, draw, level) for draw in range(draws) for level in LEVELS for name in names]
     return [Plan(first + k, name, draw % 2 if HIDDEN[name].place != "shaker" else 0, level,
                  3 if HIDDEN[name].place == "wall link" else 2, COLOURS[k % len(COLOURS)])
             for k, (name, draw, level) in enumerate(wanted)]
