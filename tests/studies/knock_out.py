@@ -25,6 +25,8 @@ _DRY = ("dahl", "lugre", "stribeck_joint", "position_friction", "jenkins", "seri
         "rate_state_ageing", "rate_state_slip", "bouc_wen")
 #: laws of joint friction that are a spring as long as they do not slip
 _SPRINGS = ("jenkins", "dahl", "lugre", "bouc_wen", "series_stiffness", "hysteretic_joint")
+#: laws that are a spring as long as they do not relax
+_RELAXING = ("viscoelastic_pad", "shim_damping", "hydraulic_compliance")
 #: laws of the catalogue that have an effect as a limit of theirs, beside those whose ``extends`` says so, or make the
 #: same force on a rig of one shaker. A mass m on a spring k' behind a joint k pulls with k - (k^2 / m) /
 #: ((k + k') / m - w^2), a hidden mass m' on a spring k" at the point with k" - (k"^2 / m') / (k" / m' - w^2): the same
@@ -40,7 +42,7 @@ CONTAINING = {
     "backlash": ("clearance",), "moving_base": ("base_shake", "second_mode", "tuned_absorber"),
     "base_shake": ("pressure_ripple",), "pressure_ripple": ("base_shake",),
     "compliant_arm": ("series_stiffness", "second_mode"),
-    "attached_mass": ("tuned_absorber", "second_mode"), "added_stiffness": ("tuned_absorber", *_SPRINGS),
+    "attached_mass": ("tuned_absorber", "second_mode"), "added_stiffness": ("tuned_absorber", *_SPRINGS, *_RELAXING),
     "sensor_gain": ("unit_factor",),
 }
 #: draws of every effect at every noise
