@@ -6,6 +6,7 @@ Ranges are searched as shares u of the way from the lower end to the upper one, 
 
 import itertools
 import math
+import re
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,13 +17,14 @@ from pipeline.contract.units import to_si
 
 #: digits of a value that is tried
 _DIGITS = 6
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
 @dataclass(frozen=True)
 class Value:
     """One value of a space: its setting, SI unit, ends or ``choices``; ``own``: that of the case, as an entry of a
     point, None where the space does not hold it; ``given``: that as settings hold it; ``start``: from where its cost
-    counts, a share or an index."""
+    counts, a share or an index; ``spelt``: a unit in which it is written, and its size in SI."""
 
     name: str
     unit: str
@@ -33,6 +35,7 @@ class Value:
     own: float | int | None
     given: object
     start: float
+    spelt: tuple = ("", 1.0)
 
     def at(self, share):
         """The number at a share of the range, rounded."""
@@ -56,7 +59,8 @@ class Value:
         """An entry of a point as a case gives it."""
         if self.choices:
             return self.choices[entry]
-        return f"{entry:.{_DIGITS}g} {self.unit}" if self.unit not in ("", "1") else entry
+        unit, size = self.spelt
+        return f"{entry / size:.{_DIGITS}g} {unit}" if unit else entry
 
     @property
     def case(self):
@@ -148,7 +152,16 @@ def space_of(settings, every):
 def _range(name, given, own, unit):
     low, high = ends(name, given, unit)
     value = Value(name, unit, low, high, given.log, (), float(own) if low <= own <= high else None, own, 0.0)
-    return replace(value, start=value.share(own))
+    return replace(value, start=value.share(own), spelt=_spelt(getattr(given, "from"), unit))
+
+
+def _spelt(written, unit):
+    """(unit, its size in SI) in which a case states a value: ('MN/m', 1e6) of '100 MN/m'."""
+    if unit in ("", "1"):
+        return "", 1.0
+    name = _NUMBER.sub("", str(written), count=1).strip()
+    size = to_si(f"1 {name}", unit, "")
+    return (name, size) if math.isclose(to_si(f"2 {name}", unit, ""), 2 * size) else (unit, 1.0)      # not degrees C
 
 
 def _list(name, given, own, unit):

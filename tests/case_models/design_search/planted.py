@@ -1,5 +1,7 @@
 """Spaces made by hand, brakes whose growth rates are closed forms, and a search of them in rounds."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pipeline.case_models.design_search.course import Evaluation, Rules
@@ -12,7 +14,7 @@ SPRING, DAMPING, COUPLING = 1.0, 0.05, 0.1
 
 def ranged(own, low, high, log=False, name="joints.spring"):
     value = Value(name, "N/m", low, high, log, (), own if low <= own <= high else None, own, 0.0)
-    return Value(name, "N/m", low, high, log, (), value.own, own, value.share(own))
+    return replace(value, start=value.share(own), spelt=("N/m", 1.0))
 
 
 def listed(choices, own=0, name="joints.kind"):
