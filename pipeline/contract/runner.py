@@ -213,9 +213,7 @@ class ChainRun:
 
     def _bring(self, stage, context, force, report):
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
-        varied = self._bring_variants(stage, context)
-        for done in varied:
-            report(*done)
+        varied = [report(*done) for done in self._bring_variants(stage, context)]       # each as it is computed
         state = self.state(stage)
         if stage.name in force:
             state = replace(state, reasons=("forced", *state.reasons))
@@ -229,11 +227,10 @@ class ChainRun:
         Variants run side by side, each in one process, where that process writes to the run folder; else in turn. What
         a search asks for by their products follows, until it asks for nothing more.
         """
-        ready, done = set(), []
+        ready = set()
         while new := [each for each in self.variants(stage, ready) if each[0] not in ready]:
-            done += self._bring_round(stage, new, context)
+            yield from self._bring_round(stage, new, context)
             ready.update(name for name, *_ in new)
-        return done
 
     def _bring_round(self, stage, new, context):
         """As of ``_bring_variants``, of some variants."""

@@ -41,8 +41,10 @@ def statement(product):
 
 def written(product, parameter, brake):
     """A value of a brake as it is shown."""
-    if product.choices[parameter] or not product.unit[parameter]:
+    if product.choices[parameter]:
         return str(product.written[brake, parameter])
+    if not product.unit[parameter]:
+        return number(product.value[brake, parameter], 3)
     return quantity(product.value[brake, parameter], str(product.unit[parameter]), 4)
 
 
