@@ -2,10 +2,14 @@
 
 import csv
 
+import numpy as np
 import pytest
 
+from pipeline.case_models.design_search.declared import stated
+from pipeline.case_models.design_search.objective import evaluation
+from pipeline.case_models.design_search.space import space_of
 from pipeline.contract import case, store
-from pipeline.products import Countermeasures, DesignSearch
+from pipeline.products import ComplexModes, Countermeasures, DesignSearch, Sensitivities
 from stages import CHAINS, load
 from tests.chain.conftest import brakechain
 
@@ -25,6 +29,20 @@ design_search:
 """
 
 
+def slope_at_the_case(folder):
+    """Change of the growth by the stiffness of the fingers, in shares of its range, as the search takes it."""
+    sections = case.load(folder / "soft.yaml", CHAINS, load).sections
+    space = space_of(sections["design_search"], stated(sections))
+    modes, derived = (store.read(each, folder / "run" / f"{each.name}.h5") for each in (ComplexModes, Sensitivities))
+    return evaluation(space, space.own, modes, derived, "largest").slopes[0]
+
+
+def secant(product):
+    """The same from the case to the first step, in which all else hardly moves."""
+    shares = np.log(product.value[:2, 0] / product.lower[0]) / np.log(product.upper[0] / product.lower[0])
+    return np.diff(product.growth[:2])[0] / np.diff(shares)[0]
+
+
 @pytest.mark.slow
 @pytest.mark.study
 def test_a_planted_remedy_is_found_and_compared(tmp_path):
@@ -36,6 +54,7 @@ def test_a_planted_remedy_is_found_and_compared(tmp_path):
     best, finger = int(product.best), product.value[:, 0]
     assert product.objective[best] < 0.7 * product.objective[0] and finger[best] > 6e8
     assert set(map(str, product.slope)) == {"analytic"} and product.computed == len(product.brake) - 1 <= 6
+    assert slope_at_the_case(tmp_path) == pytest.approx(secant(product), rel=0.35), "to first order, over a third"
     made = store.read(Countermeasures, tmp_path / "run" / "countermeasures.h5")
     assert list(made.variant) == ["best_design"] and list(made.cost_name) == ["price"]
     known = made.after[made.after_known == 1].real.max()

@@ -48,9 +48,19 @@ def _slopes(space, point, selected, sensitivities):
         value = space.values[k]
         column = columns.get(value.name)
         if column is not None and sensitivities.known[rows, column].all():
-            slope = sensitivities.derivative[rows, column].real.sum()
+            slope = sensitivities.derivative[rows, column].real.sum() * _share(sensitivities, rows, column, point[k])
             found[k] = float(slope * value.scale(point[k]))
     return found
+
+
+def _share(sensitivities, rows, column, number):
+    """Change of what is derived by the change of the setting that it belongs to, whose value is ``number``.
+
+    Joints share the stiffness of their setting and are derived by their mean, a fluid column by its own stiffness:
+    these are in proportion to the setting. What is 0 is the setting itself.
+    """
+    value = float(sensitivities.value[rows, column].mean())
+    return value / number if value and number else 1.0
 
 
 def at_operating_points(modes):

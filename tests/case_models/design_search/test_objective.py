@@ -24,7 +24,7 @@ STABLE = SimpleNamespace(unstable_first=np.array([], int), unstable_reduced=np.a
 #: derivatives per N/m of two values
 DERIVED = SimpleNamespace(
     mode=np.array([0, 1]), parameter=["friction", "joints.spring", "joints.mesh"],
-    method=["analytic", "analytic", "differences"], known=np.ones((2, 3), int),
+    method=["analytic", "analytic", "differences"], known=np.ones((2, 3), int), value=np.full((2, 3), 2.0),
     derivative=np.array([[9.0, 4.0 + 1j, 5.0], [8.0, -1.0 + 2j, 6.0]], complex))
 BOX = space(ranged(1.0, 1.0, 3.0), ranged(1.0, 1.0, 10.0, log=True, name="joints.mesh"), listed("ab"), worth=[8, 0, 0])
 
@@ -43,10 +43,21 @@ def test_slopes_are_derivatives_over_the_range(which, growth, slope):
     assert value.cost == 4.0 and value.objective == growth + 4.0
 
 
+def test_joints_that_share_a_stiffness_are_derived_by_their_mean():
+    """Four joints of 0.5 N/m each for a setting of 2 N/m: per 1 N/m of the setting each changes by a quarter of it."""
+    quarter = SimpleNamespace(**{**vars(DERIVED), "value": np.full((2, 3), 0.5)})
+    assert evaluation(BOX, (2.0, 3.0, 0), MODES, quarter, LARGEST).slopes == {0: 4.0 * 2 / 4}
+
+
+def test_a_value_of_nothing_is_the_setting():
+    none = SimpleNamespace(**{**vars(DERIVED), "value": np.zeros((2, 3))})
+    assert evaluation(BOX, (2.0, 3.0, 0), MODES, none, LARGEST).slopes == {0: 4.0 * 2}
+
+
 def test_without_sensitivities_of_a_mode_no_slope_is_known():
     fewer = SimpleNamespace(**{**vars(DERIVED), "mode": np.array([0, 7])})
     assert evaluation(BOX, BOX.own, MODES, fewer, SUM).slopes == {}
-    assert evaluation(BOX, BOX.own, MODES, fewer, LARGEST).slopes == {0: 8.0}
+    assert evaluation(BOX, (2.0, 1.0, 0), MODES, fewer, LARGEST).slopes == {0: 8.0}
     assert evaluation(BOX, BOX.own, MODES, None, LARGEST).slopes == {}
 
 
