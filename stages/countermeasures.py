@@ -6,7 +6,8 @@
           change: {structure.pad.backplate_loss_factor: 0.05}
           cost: {mass: 0.1 kg}
 
-Each variant is the case with these settings changed, computed to its complex modes and its probability of squeal.
+Each variant is the case with these settings changed, computed to its complex modes and its probability of squeal. The
+best design of the stage design_search is one more of them.
 """
 
 from functools import partial
@@ -26,12 +27,14 @@ from pipeline.case_models.countermeasures.matching import compared_modes
 from pipeline.case_models.countermeasures.nearby_modes import Brake
 from pipeline.case_models.countermeasures.squeal_rates import changes_in_bands, changes_of_rates, paired
 from pipeline.case_models.countermeasures.table import csv_table
+from pipeline.case_models.design_search.best import check_beside, searched
 from pipeline.case_models.scatter import stability_settings
 from pipeline.contract import Context, Section, Variants, option, stage
 from pipeline.products import (
     ComplexModes,
     Convergence,
     Countermeasures,
+    DesignSearch,
     Effects,
     FrictionMap,
     Probability,
@@ -51,27 +54,39 @@ class Settings(Section):
 
 def _check(sections):
     check_declared(sections["countermeasures"].variants, tuple(sections))
+    check_beside(sections)
 
 
 def _variants(sections):
+    return changes(sections["countermeasures"].variants, _drawn(sections))
+
+
+def _further(sections, given, computed):
+    """The best design of a search as one more variant."""
+    return changes(searched(given["search"]), _drawn(sections))
+
+
+def _drawn(sections):
+    """What all variants change: their draws."""
     settings, more = sections["countermeasures"], {}
     if not settings.probability or not sections["probability"].draws:
         more = {"probability.draws": 0}
     elif settings.draws is not None:
         more = {"probability.draws": settings.draws}
-    return changes(settings.variants, more)
+    return more
 
 
 def _companions(product, case):
     return {"countermeasures.csv": csv_table(product)} if len(product.variant) else {}
 
 
-@stage(companions=_companions, check=_check, variants=_variants, check_variants=check_different)
+@stage(companions=_companions, check=_check, variants=_variants, further=_further, check_variants=check_different)
 def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: FrictionMap, effects: Effects | None,
-                    convergence: Convergence, probability: Probability, varied_modes: Variants[ComplexModes],
-                    varied_models: Variants[ReducedModel], varied_maps: Variants[FrictionMap],
-                    varied_effects: Variants[Effects], varied_probabilities: Variants[Probability],
-                    settings: Settings, context: Context) -> Countermeasures:
+                    convergence: Convergence, probability: Probability, search: DesignSearch | None,
+                    varied_modes: Variants[ComplexModes], varied_models: Variants[ReducedModel],
+                    varied_maps: Variants[FrictionMap], varied_effects: Variants[Effects],
+                    varied_probabilities: Variants[Probability], settings: Settings,
+                    context: Context) -> Countermeasures:
     """Compare unstable modes and the probability of squeal with those of declared variants of the brake.
 
     Roots of variants are those of the reduced model, moved by what the full matrices move the root of the case.
@@ -88,7 +103,8 @@ def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: Fric
     compare = partial(_compared, base, convergence, stability_settings(modes).neutral)
     rows, points = context.map(compare, tasks, "operating points"), len(modes.operating_speed)
     found = [sum(rows[k:k + points], []) for k in range(0, len(rows), points)]
-    declared = {name.removeprefix(PREFIX): settings.variants[name.removeprefix(PREFIX)] for name in names}
+    known = {**settings.variants, **searched(search)}
+    declared = {name: known[name] for name in (n.removeprefix(PREFIX) for n in names)}
     return Countermeasures(
         variant=list(declared), note=[v.note for v in declared.values()],
         change=[in_words(v.change) for v in declared.values()], **_costs(declared), pressure=modes.operating_pressure,

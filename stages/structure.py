@@ -16,6 +16,7 @@ from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import build
+from pipeline.systems.disc_brake_checks import refuse_unfit
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 from pipeline.systems.mesh_files.bodies import from_files, given, notes
 from pipeline.systems.mesh_files.springs import unread_springs
@@ -64,8 +65,9 @@ class Settings(Section):
 
 
 def _check(sections):
-    """Refuse a mesh file that the brake cannot be built with before anything is computed."""
+    """Refuse dimensions that do not fit, and a mesh file that the brake cannot be built with, before all else."""
     settings = sections["structure"]
+    refuse_unfit(settings)
     if settings.disc.mount_group or from_files(settings):
         build(settings)
 

@@ -86,7 +86,7 @@ class CaseFile:
     def _check_variants(self, stage):
         """Refuse variants that ``stage`` declares and that could not run."""
         made = {}
-        for name, changes in stage.variants(self.sections).items():
+        for name, changes in {**stage.variants(self.sections), **stage.only_checked(self.sections)}.items():
             try:
                 variant = self.varied(changes)
                 _check_keys(self.path, variant.document, self.stages)

@@ -16,7 +16,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_info
 
 from pipeline import __version__
-from pipeline.contract import fingerprint, store
+from pipeline.contract import fingerprint, further, store
 from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
@@ -48,6 +48,7 @@ class ChainRun:
     variant: str = ""   # name of the variant of another run that this is
     shared: dict = field(default_factory=dict)      # product name -> its path, where another run holds the same
     code: dict = field(init=False)      # stage -> digests of its code when this run began
+    runs: dict = field(default_factory=dict, init=False, repr=False, compare=False)     # of its variants, once made
 
     def __post_init__(self):
         object.__setattr__(self, "code", {s.name: fingerprint.code_of(s.run.__module__) for s in self.case.stages})
@@ -76,14 +77,24 @@ class ChainRun:
             chosen[name] = writer.output if writer else None
         return chosen
 
-    def variants(self, stage):
-        """(name, run of the variant, its last stage, argument) for each variant that ``stage`` takes products from."""
-        made = stage.variants(self.case.sections)
-        return [(name, self._varied(name, changes), self.producer((product,)), argument)
+    def variants(self, stage, ready=None):
+        """(name, run of the variant, its last stage, argument) for each variant that ``stage`` takes products from.
+
+        Of a stage that searches, those that it asks for by what came of the variants in ``ready``; None = of all whose
+        products are there.
+        """
+        made = further.asked(self, stage, ready)
+        return [(name, self.varied(name, changes), self.producer((product,)), argument)
                 for argument, product in stage.varied.items() for name, changes in made.items()]
 
-    def _varied(self, name, changes):
+    def varied(self, name, changes):
         """The run of a variant, which shares what its changes leave as it is."""
+        key = name, json.dumps(changes, default=str)
+        if key not in self.runs:
+            self.runs[key] = self._varied(name, changes)
+        return self.runs[key]
+
+    def _varied(self, name, changes):
         changed, shared = {key.partition(".")[0] for key in changes}, {}
         for stage in self.case.stages:
             parts = [p.name for p in self.filled(stage).values() if p] if not stage.reads_all else [""]
@@ -202,9 +213,7 @@ class ChainRun:
 
     def _bring(self, stage, context, force, report):
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
-        varied = self._bring_variants(stage, context)
-        for done in varied:
-            report(*done)
+        varied = [report(*done) for done in self._bring_variants(stage, context)]       # each as it is computed
         state = self.state(stage)
         if stage.name in force:
             state = replace(state, reasons=("forced", *state.reasons))
@@ -215,10 +224,18 @@ class ChainRun:
     def _bring_variants(self, stage, context):
         """(state, seconds) of all that was computed to bring products of variants up to date that ``stage`` reads.
 
-        Variants run side by side, each in one process, where that process writes to the run folder; else in turn.
+        Variants run side by side, each in one process, where that process writes to the run folder; else in turn. What
+        a search asks for by their products follows, until it asks for nothing more.
         """
+        ready = set()
+        while new := [each for each in self.variants(stage, ready) if each[0] not in ready]:
+            yield from self._bring_round(stage, new, context)
+            ready.update(name for name, *_ in new)
+
+    def _bring_round(self, stage, new, context):
+        """As of ``_bring_variants``, of some variants."""
         lasts = {}
-        for name, run, last, _ in self.variants(stage):
+        for name, run, last, _ in new:
             if any(state.reasons for state in run.needed(last)):
                 lasts.setdefault(name, (run, []))[1].append(last)
         old = list(lasts.values())

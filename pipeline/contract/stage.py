@@ -59,6 +59,8 @@ class Stage:
     varied: dict        # argument name -> product class, for arguments that take it from each variant of the case
     variants: Callable  # {stage: settings} -> {name of a variant: {'stage.key': value}}
     check_variants: Callable    # ({stage: settings}, {name of a variant: {stage: settings}}) -> None; as ``check``
+    further: Callable | None    # asks for variants by what came of others, see pipeline.contract.further
+    only_checked: Callable      # as ``variants``, of some that are refused like these and never computed
 
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` and optional inputs may be left out.
@@ -92,13 +94,14 @@ def _imported(module, name):
 def stage(run=None, **options):
     """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage.
 
-    Options: ``companions``, ``reads_case``, ``check``, ``variants`` and ``check_variants``, see Stage.
+    Options: ``companions``, ``reads_case``, ``check``, ``variants``, ``check_variants``, ``further`` and
+    ``only_checked``, see Stage.
     """
     return partial(_stage, **options) if run is None else _stage(run, **options)
 
 
 def _stage(run, *, companions=None, reads_case=False, check=lambda sections: None, variants=None,
-           check_variants=lambda sections, varied: None):
+           check_variants=lambda sections, varied: None, further=None, only_checked=lambda sections: {}):
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
@@ -119,7 +122,7 @@ def _stage(run, *, companions=None, reads_case=False, check=lambda sections: Non
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
     return Stage(run.__name__, run, inputs, optional, reads_all, output, settings, summary.strip().splitlines()[0],
                  " ".join(method.split()), companions, reads_case, check, varied,
-                 variants or (lambda sections: {}), check_variants)
+                 variants or (lambda sections: {}), check_variants, further, only_checked)
 
 
 def _options(hint):

@@ -64,10 +64,11 @@ from pipeline.products.sound import (
 )
 from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
+from pipeline.products.systems.design_search import DesignSearch
 from pipeline.products.systems.matrices import Matrices, MatrixModes, MatrixTerm, RootsOfMatrices
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "BenchStops", "Body", "Channel", "Comparison", "ComplexModes",
-           "Condition", "Convergence", "Countermeasures", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
+           "Condition", "Convergence", "Countermeasures", "DesignSearch", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "MeshTie", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Sensitivities", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",

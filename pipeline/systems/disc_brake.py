@@ -15,14 +15,15 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.groups import named_nodes
-from pipeline.physics.fem.elasticity import isotropic, orthotropic
+from pipeline.physics.fem.elasticity import isotropic
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
 from pipeline.systems.disc_brake_bracket import bracket
 from pipeline.systems.disc_brake_checks import clamped_radius, refuse_unfit
 from pipeline.systems.disc_brake_joints import joints, piston_rows
+from pipeline.systems.disc_brake_pad import pad
 from pipeline.systems.disc_brake_piston import FluidColumn, bore, fluid_column, piston
 from pipeline.systems.disc_brake_rows import body_names, contacts, pad_height, placed, sensor_rows
-from pipeline.systems.mesh_files.bodies import pad_solid, solid
+from pipeline.systems.mesh_files.bodies import solid
 from pipeline.systems.solids import Assembly, Rows, Solid
 
 #: a mount counts as rigid when the web bends into it over less than this share of the clamped width
@@ -119,26 +120,6 @@ def clamped_nodes(mesh, parameters, young=None):
                           f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",
                           f"{bending:.2g} m", "tighten the bolts or smooth the flange")
     return np.unique(face[bottom])
-
-
-def pad(parameters, side):
-    """Lining on the disc face of ``side`` (+1 outer, -1 inner) and its steel backplate; patches divide the mesh."""
-    p, face = parameters.pad, parameters.disc.ring_thickness / 2
-    if p.mesh_file:
-        return pad_solid(p, side)
-    radius = np.linspace(p.inner_radius, p.outer_radius, p.patches_radial * p.cells_per_patch + 1)
-    angle = np.linspace(-p.angle / 2, p.angle / 2, p.patches_angular * p.cells_per_patch + 1)
-    depth = face + np.r_[np.linspace(0, p.lining_thickness, p.lining_layers + 1),
-                         p.lining_thickness + p.backplate_thickness]
-    mesh = revolve(radius, angle, depth if side > 0 else -depth[::-1])
-    layer = mesh.cell[:, 2] if side > 0 else p.lining_layers - mesh.cell[:, 2]
-    lining = orthotropic((p.lining_young_radial, p.lining_young_tangential, p.lining_young_normal),
-                         (p.lining_poisson,) * 3,
-                         (p.lining_shear_normal, p.lining_shear_normal, p.lining_shear_in_plane))
-    return Solid(mesh, (layer == p.lining_layers).astype(int), ("lining", "steel"),
-                       np.array([p.lining_density, p.backplate_density]),
-                       np.array([lining, isotropic(p.backplate_young, p.backplate_poisson)]), p.damping_ratio,
-                       np.empty(0, int), np.array([p.lining_loss_factor, p.backplate_loss_factor]))
 
 
 def caliper(parameters):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.systems.disc_brake_pad import refuse_unfit_shape
 
 
 def clamped_radius(parameters):
@@ -14,6 +15,7 @@ def clamped_radius(parameters):
 def refuse_unfit(parameters):
     """ConfigError for dimensions of disc, pads and caliper that do not fit; those of pads and caliper from mesh files
     are not asked."""
+    refuse_unfit_shape(parameters.pad)
     d, p, c = parameters.disc, parameters.pad, parameters.caliper
     rules = (
         (d.bore_radius < d.ring_inner_radius < d.ring_outer_radius, "disc", "bore < ring inner < ring outer radius",

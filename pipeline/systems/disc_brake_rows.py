@@ -57,13 +57,20 @@ def contacts(meshes, parameters):
 def _pad_patches(meshes, parameters, pad):
     """Body, centroids, areas and the (contacts, nodes) means on pad and disc of one pad, patches or single points."""
     p, mesh = parameters.pad, meshes[pad]
-    face = mesh.groups[CONTACT] if mesh.groups else faces_towards(mesh, -1 if pad == OUTER else 1)
+    face = mesh.groups[CONTACT] if mesh.groups else _front(mesh, pad)
     point, area = _points(mesh.node, face, p.contact_points)
     group = _patches(point, p, mesh.node[np.unique(face)]) if p.contact_points is None else np.arange(len(point))
     total = np.bincount(group, area)
     centre = np.stack([np.bincount(group, area * x) for x in point.T], axis=1) / total[:, None]
     rows = surface_rows(mesh.node, face, point, area, group, "structure.pad: contact face")
     return np.full(len(total), pad), centre, total, rows, _on_disc(meshes[DISC], pad, point, area, group)
+
+
+def _front(mesh, pad):
+    """Faces of a pad that touch the disc: those towards it that lie in front, without the floor of a slot."""
+    face = faces_towards(mesh, -1 if pad == OUTER else 1)
+    height = abs(face_normals(mesh.node, face)[1][:, 2])
+    return face[height < abs(mesh.node[:, 2]).min() + TOUCHING]
 
 
 def _points(node, face, count):

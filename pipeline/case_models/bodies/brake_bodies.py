@@ -44,6 +44,14 @@ class Pad(FromMesh):
     angle: Quantity("rad", gt=0, lt=3) = option("50 deg", "angle that the pad spans")
     lining_thickness: Quantity("m", gt=0) = option("11 mm", "thickness of the friction lining")
     backplate_thickness: Quantity("m", gt=0) = option("5.5 mm", "thickness of the backplate")
+    chamfer_length: Quantity("m", ge=0) = option("0 mm", "chamfers at both ends of the lining: length along sliding"
+                                                 " that each takes from its face, at the mean radius")
+    chamfer_depth: Quantity("m", gt=0) | None = option(None, "their height above the face")
+    slot_width: Quantity("m", ge=0) = option("0 mm", "radial slot in the middle of the lining: width at the mean"
+                                             " radius")
+    slot_depth: Quantity("m", gt=0) | None = option(None, "its depth from the face")
+    added_mass: Quantity("kg", ge=0) = option("0 g", "weights on the ends of the backplate of each pad, in all")
+    added_mass_at: Literal["both", "leading", "trailing"] = option("both", "ends that bear them, each the same")
     lining_young_radial: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, radial")
     lining_young_tangential: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, along sliding")
     lining_young_normal: Quantity("Pa", gt=0) = option("1.5 GPa", "bulk Young's modulus of the lining through its"

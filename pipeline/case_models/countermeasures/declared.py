@@ -53,11 +53,12 @@ def check_declared(variants, known):
             raise ConfigError(f"{where}.{name}.change", "at least one setting that it changes", "none",
                               "state it as 'stage.key': value, or leave the variant out")
         for key, value in variant.change.items():
-            _check_key(f"{where}.{name}.change", key, value, known)
+            check_key(f"{where}.{name}.change", key, value, known)
     costs(variants)
 
 
-def _check_key(where, key, value, known):
+def check_key(where, key, value, known):
+    """ConfigError where a variant may not change the setting ``key``; ``known``: names of the stages of the chain."""
     stage, dot, _ = key.partition(".")
     if stage not in known or not dot and not (isinstance(value, dict) and value):      # a whole section may be given
         near = get_close_matches(stage, [name for name in known if name in OF_MODES], 1)
@@ -105,7 +106,7 @@ def costs(variants):
     for name, variant in variants.items():
         for column, given in variant.cost.items():
             where = f"countermeasures.variants.{name}.cost.{column}"
-            number, unit = _number(given, where)
+            number, unit = number_with_unit(given, where)
             known, numbers = columns.setdefault(column, (unit, {}))
             if unit != known:
                 raise ConfigError(where, f"{known or 'no unit'}, as in the variants before", repr(unit or "none"),
@@ -114,7 +115,8 @@ def costs(variants):
     return [(column, unit, numbers) for column, (unit, numbers) in columns.items()]
 
 
-def _number(given, where):
+def number_with_unit(given, where):
+    """(number, unit or '') of a cost as it is written; ConfigError for what is no number."""
     read = _COST.fullmatch(given) if isinstance(given, str) else None
     if isinstance(given, str) and read is None:
         raise ConfigError(where, "a number, with or without a unit, such as 0.1 kg", repr(given)[:100])

@@ -205,7 +205,7 @@ def _ends(product):
 def what_slope_decides(probability):
     """Share of the draws that squeal where friction rises less and more with pressure than usual; '' without draws."""
     sources = [] if probability is None else list(map(str, probability.source))
-    if "friction_over_pressure" not in sources:
+    if "friction_over_pressure" not in sources or len(probability.value) < 2:
         return ""
     slope = probability.value[:, sources.index("friction_over_pressure")]
     heard = abs(probability.root) >= 2 * np.pi * probability.squeal_from       # as the stage counts them

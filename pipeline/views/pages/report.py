@@ -31,6 +31,7 @@ from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import (
     beam_on_beam,
     countermeasures,
+    design_search,
     lock_in,
     lumped,
     matrix_modes,
@@ -69,6 +70,7 @@ CHAPTERS = {
     "limit_cycle": (limit_cycle.chapter, ()),
     "probability": (probability.chapter, ()),
     "sensitivities": (sensitivities.chapter, ("convergence",)),
+    "design_search": (design_search.chapter, ()),
     "countermeasures": (countermeasures.chapter, ()),
     "multibody": (pad_motion.chapter, ()),
     "transient": (transient.chapter, ()),

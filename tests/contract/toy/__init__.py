@@ -2,7 +2,8 @@
 
 from importlib import import_module
 
-CHAINS = {"toy": ("source", "doubled"), "varied": ("source", "doubled", "compared")}
+CHAINS = {"toy": ("source", "doubled"), "varied": ("source", "doubled", "compared"),
+          "searched": ("source", "doubled", "sought")}
 
 
 def load(name):

@@ -43,3 +43,10 @@ class Shelf:
     """Nested products by name."""
 
     points: dict[str, Inner] = parts("points by name")
+
+
+@product(version=1)
+class Sought:
+    """Levels that were tried."""
+
+    level: Array = quantity("Pa", "trial", "levels in their order")

@@ -40,6 +40,10 @@ def test_draws_of_a_higher_slope_squeal_more_often():
     assert what_slope_decides(replace(drawn, squeal_from=np.array(1e5))).endswith(f"upper half {percent(0.0)}.")
 
 
+def test_no_draw_says_nothing_of_the_slope():
+    assert what_slope_decides(SimpleNamespace(source=SLOPED, value=np.zeros((0, len(SLOPED))))) == ""
+
+
 @pytest.mark.parametrize("drawn", [None, small.probability()])
 def test_without_draws_of_the_slope_nothing_is_said_of_it(drawn):
     assert what_slope_decides(drawn) == ""

@@ -1,0 +1,1 @@
+"""Search over a declared design space: its values, the searches from several starts, and what they leave out."""
