@@ -52,6 +52,15 @@ class Pad(FromMesh):
     slot_depth: Quantity("m", gt=0) | None = option(None, "its depth from the face")
     added_mass: Quantity("kg", ge=0) = option("0 g", "weights on the ends of the backplate of each pad, in all")
     added_mass_at: Literal["both", "leading", "trailing"] = option("both", "ends that bear them, each the same")
+    shim_rubber_thickness: Quantity("m", ge=0) = option("0 mm", "shims on the backs of the backplates: thickness of the"
+                                                        " rubber between backplate and cover; 0 = none")
+    shim_cover_thickness: Quantity("m", gt=0) = option("0.5 mm", "thickness of their covers, of the steel of the"
+                                                       " backplate")
+    shim_rubber_shear: Quantity("Pa", gt=0) = option("20 MPa", "shear modulus of the rubber at frequencies of squeal"
+                                                     " and the temperature of the shim")
+    shim_rubber_poisson: float = option(0.48, "Poisson's ratio of the rubber", gt=0, lt=0.499)
+    shim_rubber_density: Quantity("kg/m^3", gt=0) = option("1200 kg/m^3", "density of the rubber")
+    shim_rubber_loss_factor: float = option(0.5, "loss factor of the rubber", ge=0)
     lining_young_radial: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, radial")
     lining_young_tangential: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, along sliding")
     lining_young_normal: Quantity("Pa", gt=0) = option("1.5 GPa", "bulk Young's modulus of the lining through its"
