@@ -50,15 +50,15 @@ def rivals(case):
     """[Rival] of the one piece of physics that a Case hides, nearest first."""
     hidden, hiding = case.planted[0], case.hiding
     without, near = hiding.without(hiding.trained), {}
-    seen = _shown(hiding.recorder, hiding.truth, hidden, hiding.trained)
+    seen = _shown(hiding.recorder, hiding.truth, (hidden,), hiding.trained)
     for law in _laws(hiding, hidden):
-        change = difference(_shown(hiding.recorder, hiding.truth, law, hiding.trained), without)
+        change = difference(_shown(hiding.recorder, hiding.truth, (law,), hiding.trained), without)
         asked = difference(seen, without), case.noise, case.colour, [change]
         left, key = hiding.explained.left(*asked), (law.piece.name, law.place)
         if left < near.get(key, (np.inf,))[0]:
             near[key] = left, replace(law, size=float(hiding.explained.taken(*asked)[1][0]) * law.size)
     order = sorted(near.values(), key=lambda pair: pair[0])
-    refitted = [(min(left, _refitted(case, law, seen)) if k < _REFITTED and left < _WORTH * APART else left, law)
+    refitted = [(min(left, _refitted(case, [law], seen)) if k < _REFITTED and left < _WORTH * APART else left, law)
                 for k, (left, law) in enumerate(order)]
     return [Rival(law.piece.name, law.place, float(left)) for left, law in sorted(refitted, key=lambda pair: pair[0])]
 
@@ -69,8 +69,30 @@ def beside_the_other(case):
     What leaves much linearly is not refitted.
     """
     seen = shown(case.hiding.recorder, case.hiding.truth, case.planted, runs=slice(case.hiding.trained))
-    return tuple(min(left, _refitted(case, other, seen)) if left < _WORTH * APART else left
+    return tuple(min(left, _refitted(case, [other], seen)) if left < _WORTH * APART else left
                  for left, other in zip(case.left, case.planted[::-1], strict=True))
+
+
+def left_beside(case, named):
+    """What the piece that a Case hides leaves beside known laws refitted all at once, as ``Rival.left``; infinite where
+    one of the ``named`` [(name, place)] is none of HIDDEN, or cannot make such a change."""
+    hidden, hiding = case.planted[0], case.hiding
+    without, wanted = hiding.without(hiding.trained), hiding.change(hidden)
+    try:
+        laws = [sized(_at_place(hiding, hidden, *each), hiding.change, wanted) for each in named]
+    except (KeyError, BrakechainError):
+        return np.inf
+    seen = _shown(hiding.recorder, hiding.truth, (hidden,), hiding.trained)
+    changes = [difference(_shown(hiding.recorder, hiding.truth, (law,), hiding.trained), without) for law in laws]
+    amounts = hiding.explained.taken(difference(seen, without), case.noise, case.colour, changes)[1]
+    return _refitted(case, [replace(law, size=float(a) * law.size) for a, law in zip(amounts, laws, strict=True)], seen)
+
+
+def _at_place(hiding, hidden, name, place):
+    """Planted of a known piece by its name and that of its place; KeyError where there is none."""
+    piece = HIDDEN[name]
+    index = {where: index for index, where in places(piece, len(hiding.truth.mass))}[place]
+    return Planted(piece, place, hiding.spot(piece, index, hidden.spot.shape))
 
 
 def _laws(hiding, hidden):
@@ -91,31 +113,32 @@ def _laws(hiding, hidden):
     return laws
 
 
-def _refitted(case, law, seen):
-    """What a law leaves of the motion ``seen`` that it is fitted to, together with the values of the rig; where that is
-    less than APART, it may be still less."""
+def _refitted(case, laws, seen):
+    """What laws leave of the motion ``seen`` that they are fitted to, together with the values of the rig; where that
+    is less than APART, it may be still less."""
     hiding = case.hiding
-    refit = of_law(hiding.recorder, hiding.values, law, hiding.trained)
+    refit = of_laws(hiding.recorder, hiding.values, laws, hiding.trained)
     return refit.left(difference(seen, refit.at_rest), case.noise, case.colour, enough=0.9 * APART)
 
 
-def of_law(recorder, values, law, runs):
-    """Refitted by Values of a rig with a Planted ``law`` of other size and speed, in the first ``runs``."""
+def of_laws(recorder, values, laws, runs):
+    """Refitted by Values of a rig with Planted ``laws`` of other sizes and speeds, in the first ``runs``."""
     def model(u):
         rig, gains = values.at(u[:values.size])
-        size, speed = np.exp(np.multiply(_SPREADS, u[values.size:]))
-        spot = replace(law.spot, speed=speed * law.spot.speed)
+        factors = np.exp(_SPREADS * np.reshape(u[values.size:], (len(laws), -1)))
+        changed = [replace(law, size=size * law.size, spot=replace(law.spot, speed=speed * law.spot.speed))
+                   for law, (size, speed) in zip(laws, factors, strict=True)]
         try:
-            seen = _shown(recorder, rig, replace(law, size=size * law.size, spot=spot), runs)
+            seen = _shown(recorder, rig, changed, runs)
         except BrakechainError:
             return np.full((runs, len(recorder.gains), len(recorder.runs[0])), np.nan)
         return np.array(seen) * gains[:, None]
 
-    return Refitted(model, values.size + len(_SPREADS), costly=True)
+    return Refitted(model, values.size + len(laws) * len(_SPREADS), costly=True)
 
 
-def _shown(recorder, rig, law, runs):
-    """[(sensor, n)] of a rig with a Planted ``law`` in the first ``runs``: by the exponential where it is linear."""
-    world, chains = built(rig, (law,))
+def _shown(recorder, rig, laws, runs):
+    """[(sensor, n)] of a rig with Planted laws in the first ``runs``: by the exponential where it is linear."""
+    world, chains = built(rig, laws)
     exact = linear_world(world, recorder.runs[:runs], 1 / recorder.rate, recorder.corner)
     return recorder.seen(recorder.motion(world, slice(runs)) if exact is None else exact, chains)

@@ -7,7 +7,14 @@ import pytest
 
 from pipeline.blind_trial.generators import case_files
 from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
-from pipeline.blind_trial.generators.spring_mass.imitating_laws import APART, KIN, beside_the_other, of_law, rivals
+from pipeline.blind_trial.generators.spring_mass.imitating_laws import (
+    APART,
+    KIN,
+    beside_the_other,
+    left_beside,
+    of_laws,
+    rivals,
+)
 from pipeline.blind_trial.generators.spring_mass.placement import difference
 from pipeline.blind_trial.generators.spring_mass.rig_case import made
 
@@ -29,7 +36,7 @@ def test_a_law_of_another_size_is_found_again():
     """
     case = made(11, "cubic_stiffness", level=0.01, masses=1, change=0.1)
     law, hiding = case.planted[0], case.hiding
-    own = of_law(hiding.recorder, hiding.values, replace(law, size=1.5 * law.size), hiding.trained)
+    own = of_laws(hiding.recorder, hiding.values, [replace(law, size=1.5 * law.size)], hiding.trained)
     change = difference(hiding.shown((law,)), own.at_rest)
     assert own.left(change, case.noise) == pytest.approx(np.log(1.5), abs=0.1)
 
@@ -69,3 +76,14 @@ def test_of_a_pair_each_leaves_what_the_other_alone_cannot_explain():
 def test_of_a_pair_far_above_the_noise_nothing_is_refitted():
     pair = made(12, ("cubic_stiffness", "backlash"), (0, 0), level=0.001, masses=1, change=0.05)
     assert beside_the_other(pair) == pair.left
+
+
+def test_what_a_piece_leaves_beside_named_laws():
+    """Nothing beside itself, nearly all beside a faulty sensor; what the generator cannot make explains nothing."""
+    case = made(11, "cubic_stiffness", level=0.05, masses=1, change=0.1)
+    assert left_beside(case, [("cubic_stiffness", "link_0")]) < APART
+    beside = left_beside(case, [("sensor_delay", "x_0")])
+    assert APART < beside <= case.left[0] * 1.01
+    both = left_beside(case, [("sensor_delay", "x_0"), ("cubic_stiffness", "link_0")])
+    assert both < APART
+    assert left_beside(case, [("lugre", "link_0")]) == left_beside(case, [("backlash", "link_7")]) == np.inf
