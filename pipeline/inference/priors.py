@@ -24,6 +24,11 @@ class _Prior:
         """Change of the value per latent unit, by central differences."""
         return (self.value(latent + 1e-4) - self.value(latent - 1e-4)) / 2e-4
 
+    @property
+    def possible(self):
+        """(low, high) of what makes sense, where the prior looks at less than that."""
+        return self.support
+
     def quantile(self, share):
         """The value below which ``share`` of the prior lies."""
         return self.value(scipy.special.ndtri(share))
@@ -151,7 +156,8 @@ class Uniform(_Prior):
 
 @dataclass(frozen=True)
 class LogUniform(_Prior):
-    """Between ``low`` and ``high``, both above zero, each of their decades alike."""
+    """Between ``low`` and ``high``, both above zero, each of their decades alike: where to look, of sizes whose sign
+    alone is fixed."""
 
     low: float
     high: float
@@ -167,6 +173,10 @@ class LogUniform(_Prior):
     @property
     def support(self):
         return self.low, self.high
+
+    @property
+    def possible(self):
+        return 0.0, np.inf
 
     def log_density(self, value):
         value = np.asarray(value, float)

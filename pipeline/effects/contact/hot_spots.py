@@ -9,14 +9,15 @@ import numpy as np
 
 from pipeline.effects.contact.contact_surface import with_wave
 from pipeline.effects.effect import Effect
-from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.effects.warming import warming_time
+from pipeline.inference.priors import HalfNormal, Parameter, Uniform
 
 
 def parameters(typical):
     size = 0.1 * typical.length
     return (Parameter("amplitude", "m", size, HalfNormal(2 * size), null=0.0),
             Parameter("order", "1", 6.0, Uniform(2.5, 20.5)), Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)),
-            Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
+            warming_time(typical))
 
 
 def apply(bench, location, values):

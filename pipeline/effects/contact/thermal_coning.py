@@ -9,13 +9,14 @@ import numpy as np
 
 from pipeline.effects.contact.contact_surface import with_wave
 from pipeline.effects.effect import Effect
-from pipeline.inference.priors import LogNormal, Normal, Parameter
+from pipeline.effects.warming import warming_time
+from pipeline.inference.priors import Normal, Parameter
 
 
 def parameters(typical):
     size = 0.3 * typical.length
     return (Parameter("shift", "m", size, Normal(0.0, size), null=0.0),
-            Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
+            warming_time(typical))
 
 
 def apply(bench, location, values):

@@ -1,13 +1,14 @@
 """A joint that softens as it warms up: k(t) = k (1 - d (1 - exp(-t / tau)))."""
 
 from pipeline.effects.effect import Effect
-from pipeline.inference.priors import LogNormal, Parameter, Uniform
+from pipeline.effects.warming import warming_time
+from pipeline.inference.priors import Parameter, Uniform
 from pipeline.physics.time_stepping.elements import Element, Softening
 
 
 def parameters(typical):
     return (Parameter("drop", "1", 0.1, Uniform(0.0, 0.8), null=0.0),
-            Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
+            warming_time(typical))
 
 
 def apply(bench, location, values):

@@ -6,6 +6,7 @@ x is the temperature in units of what the power q per area would reach; every ru
 """
 
 from pipeline.effects.effect import Effect
+from pipeline.effects.warming import warming_time
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 from pipeline.physics.friction.state_variables import Fade
 
@@ -14,7 +15,7 @@ def parameters(typical):
     heat = typical.pressure * typical.speed
     return (Parameter("drop", "1", 0.5, HalfNormal(1.0), null=0.0),
             Parameter("heat", "W/m^2", heat, LogNormal(heat, 0.1)),
-            Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
+            warming_time(typical))
 
 
 def apply(bench, location, values):

@@ -12,16 +12,18 @@ import numpy as np
 
 from pipeline.effects.effect import Effect
 from pipeline.effects.resolved import felt_mass
-from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.priors import HalfNormal, LogUniform, Parameter, Uniform
 
+#: lowest and highest frequency over that of the body on its joints, which is rigid in its mode there
+_RANGE = (1.0, 20.0)
 #: largest damping ratio of a mode of a body, with layers that damp; what is damped more is a damper, not a mode
 _MOST_DAMPED = 0.3
 
 
 def parameters(typical):
-    frequency = 2 / (2 * np.pi * typical.period)
+    natural = 1 / (2 * np.pi * typical.period)
     return (Parameter("share", "1", 0.3, HalfNormal(0.5), null=0.0),
-            Parameter("frequency", "Hz", frequency, LogNormal(frequency, 0.7)),
+            Parameter("frequency", "Hz", 2 * natural, LogUniform(*(share * natural for share in _RANGE))),
             Parameter("damping_ratio", "1", 0.02, Uniform(0.0, _MOST_DAMPED)))
 
 

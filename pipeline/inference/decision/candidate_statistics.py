@@ -66,7 +66,13 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
         tuple(_varying(fit, [k for k, _ in added], weights, rules.decision))
         + tuple(_beside(fit, null, weights, rules.decision)), gained and gained.error,
-        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered)
+        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered, _nominal_p(fit, null))
+
+
+def _nominal_p(fit, null):
+    """p-value of the nominal values that a Fit asks for, under their priors: those of all runs, without effects."""
+    nominal = [k for k, p in enumerate(null.hypothesis.parameters) if not p.run and p.null is None and not p.discrete]
+    return float(scipy.stats.chi2.sf(np.sum(fit.latent[nominal]**2), len(nominal))) if nominal else 1.0
 
 
 def _shaped(fit, null, candidate):

@@ -18,7 +18,8 @@ class CandidateStatistics:
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow
     along the runs, in words. ``held_out_error``: root mean square that it leaves there, in noise floors. ``adapts``:
-    whether it is a law of samples in time whose shape adapts to them.
+    whether it is a law of samples in time whose shape adapts to them. ``nominal_p``: p-value of the nominal values that
+    it asks for, under their priors.
     """
 
     name: str
@@ -45,6 +46,7 @@ class CandidateStatistics:
     varying: tuple = ()
     held_out_error: float | None = None
     adapts: bool = False
+    nominal_p: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -114,6 +116,9 @@ def objections(candidate, runs, rules):
     reasons = [*candidate.doubts, *candidate.varying]
     if candidate.forbidden:
         reasons.append(candidate.forbidden)
+    if candidate.nominal_p < rules.nominal_p:
+        reasons.append("the nominal values that it asks for are unlikely together under their priors"
+                       f" (p {candidate.nominal_p:.1g}): a law of another form, or spreads that are stated too small")
     if candidate.from_null < rules.from_null:
         reasons.append(f"its value lies {candidate.from_null:.1f} standard deviations from none at all")
     reasons += _form(candidate, rules)
@@ -125,6 +130,8 @@ def objections(candidate, runs, rules):
         if candidate.unfitted_errors < rules.gain_errors:
             reasons.append(f"its gain on runs that were not fitted is {candidate.unfitted_errors:.1f} standard errors")
         if not candidate.powered:
+            if candidate.evidence_gain < rules.evidence_unconfirmed:
+                reasons.append(f"no held-out run can confirm it, and its evidence is {candidate.evidence_gain:.1f}")
             if candidate.stays > rules.held_out_left:
                 reasons.append(f"it leaves {candidate.stays:.0%} of the excess error on all runs, of which the held-out"
                                " ones cannot tell")

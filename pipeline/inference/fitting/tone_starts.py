@@ -1,10 +1,12 @@
 """Where effects that sound or resonate begin their fits: at the frequencies that stand out of what the null leaves.
 
-Over frequency the fit of a tone, or of a hidden resonance that hardly decays, has one narrow valley among many, as wide
-as a run is short; amplitude and phase follow from two predictions a quarter of a turn apart, as the tone is linear in
-its cosine and sine, those of a resonance from one.
+What modulates a motion leaves the sums and differences of its frequency and those of the motion. Over frequency the fit
+of a tone, or of a hidden resonance that hardly decays, has one narrow valley among many, as wide as a run is short;
+amplitude and phase follow from two predictions a quarter of a turn apart, as the tone is linear in its cosine and sine,
+those of a resonance from one.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,16 +19,20 @@ from pipeline.inference.priors import LATENT_LIMIT
 _TRIED, _BEGUN = 4, 2
 #: ordinates of a spectrum for each that its length resolves
 FINER = 4
+#: peaks of the motion that a modulation is looked for beside, and frequencies of it that are tried at most
+_BESIDE, _MODULATIONS = 3, 32
 #: amplitude of the two predictions, in scales of its prior
 _SMALL = 0.02
 
 
 class Tone(NamedTuple):
-    """Indices of the amplitude, frequency and phase among the parameters of an effect; no phase of a resonance."""
+    """Indices of the amplitude, frequency and phase among the parameters of an effect; no phase of a resonance. Its
+    amplitude is a pure number where it ``modulates`` what is there."""
 
     amplitude: int
     frequency: int
     phase: int | None
+    modulates: bool = False
 
 
 def tone_of(candidate):
@@ -34,7 +40,9 @@ def tone_of(candidate):
     shapes = {candidate.parameters[k].unit: k for k in candidate.shaping}
     if len(candidate.sizes) != 1 or "Hz" not in shapes:
         return None
-    return Tone(candidate.sizes[0], shapes["Hz"], shapes.get("rad"))
+    amplitude = candidate.sizes[0]
+    modulates = "rad" in shapes and candidate.parameters[amplitude].unit == "1"
+    return Tone(amplitude, shapes["Hz"], shapes.get("rad"), modulates)
 
 
 class Spectrum(NamedTuple):
@@ -72,6 +80,23 @@ def standing_out(fit, count=_TRIED):
     return grid[peaks - 1] + (grid[1] - grid[0]) * 0.5 * (after - before) / np.maximum(2 * at - before - after, 1e-300)
 
 
+def modulations(fit):
+    """Frequencies (f,) in Hz at which what a Fit leaves may be the motion, modulated: sums and differences of their
+    peaks, once each."""
+    whole = replace(fit, residuals=tuple(noise.whiten(np.where(run.valid, run.samples, 0.0))
+                                         for run, noise in zip(fit.runs, fit.noises, strict=True)))
+    left, moved, found = standing_out(fit), standing_out(whole, _BESIDE), spectrum(fit)
+    if found is None or not (len(left) and len(moved)):
+        return np.empty(0)
+    width, longest = FINER * (found.frequency[1] - found.frequency[0]), found.frequency[-1]
+    apart = np.concatenate([abs(left[:, None] - moved).ravel(), (left[:, None] + moved).ravel()])
+    kept = []
+    for frequency in apart:
+        if width <= frequency <= longest and all(abs(frequency - other) > width / 2 for other in kept):
+            kept.append(frequency)
+    return np.array(kept[:_MODULATIONS])
+
+
 def _power(part, rate, grid):
     size = 1 << int(np.ceil(np.log2(FINER * len(part))))
     return np.interp(grid, np.fft.rfftfreq(size, 1 / rate), np.abs(np.fft.rfft(part, size)) ** 2 / len(part))
@@ -88,7 +113,7 @@ def starts(problem, fit, candidate):
     back = np.linalg.solve(jacobian.T @ jacobian + np.eye(len(fit.latent)), jacobian.T)
     base, start = np.concatenate(fit.residuals), np.concatenate(from_prior_mean(fit))
     ranked = []
-    for frequency in standing_out(fit):
+    for frequency in modulations(fit) if tone.modulates else standing_out(fit):
         phases = (0.0,) if tone.phase is None else (0.0, np.pi / 2)
         waves = [_latent(candidate, tone, _SMALL, frequency, phase) for phase in phases]
         shown = [whitened(problem, fit.noises, hypothesis, np.concatenate((fit.latent, w)), fit.runs)[0] for w in waves]
@@ -109,7 +134,7 @@ def starts(problem, fit, candidate):
 def _latent(candidate, tone, size, frequency, phase):
     """Latent values (k,) of a tone whose amplitude is ``size`` prior scales."""
     parameters, latent = candidate.parameters, np.zeros(len(candidate.parameters))
-    for k, value in zip(tone, (parameters[tone.amplitude].null + size * parameters[tone.amplitude].prior.scale,
+    for k, value in zip(tone[:3], (parameters[tone.amplitude].null + size * parameters[tone.amplitude].prior.scale,
                                frequency, phase), strict=True):
         if k is not None:
             latent[k] = parameters[k].prior.latent(value)

@@ -8,6 +8,7 @@ from scipy import stats
 
 from pipeline.inference.decision.candidate_statistics import (
     _immaterial,
+    _nominal_p,
     candidate_statistics,
     held_out_gains,
     run_statistics,
@@ -16,10 +17,11 @@ from pipeline.inference.decision.candidate_statistics import (
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.parameter_drift import drift
-from pipeline.inference.priors import LATENT_LIMIT, HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.priors import LATENT_LIMIT, HalfNormal, LogNormal, Normal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.rules import DEFAULTS, DecisionRules
 from tests.inference import linear
+from tests.inference.tones import null_of
 
 
 def fits(truth=None, seed=0, held_out=0, sizes=(2, 1, 1), runs=4):
@@ -169,3 +171,14 @@ def test_no_change_of_a_value_at_the_end_of_its_prior_is_more_than_its_whole_ran
     ended = fit_at(whole, replace(found[1], hypothesis=whole.nominal.joined(own)),
                    np.append(found[1].latent[:-1], LATENT_LIMIT))
     assert _immaterial(ended, len(ended.latent) - 1, DEFAULTS.decision) == LATENT_LIMIT
+
+
+@pytest.mark.exact
+def test_nominal_values_count_together_under_their_priors():
+    """chi^2 of what is common to all runs, no more: neither effects nor starts of single runs."""
+    _, null = null_of({})
+    third = Parameter("start", "m", 0.0, Normal(0.0, 1.0), run="one")
+    size = Parameter("force", "N", 0.1, HalfNormal(1.0), null=0.0)
+    hypothesis = replace(null.hypothesis, parameters=(*null.hypothesis.parameters, third, size))
+    asked = replace(null, hypothesis=hypothesis, latent=np.array([3.0, 9.0, 9.0]))
+    assert _nominal_p(asked, asked) == pytest.approx(stats.chi2.sf(9.0, 1))

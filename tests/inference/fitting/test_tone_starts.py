@@ -5,14 +5,48 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.inference.fitting.tone_starts import Tone, standing_out, starts, tone_of
-from tests.inference.tones import DRAG, RATE, RIPPLE, SAMPLES, TRUE, null_of
+from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.tone_starts import Tone, modulations, standing_out, starts, tone_of
+from pipeline.inference.priors import HalfNormal, LogUniform, Normal, Parameter, Uniform
+from pipeline.inference.problem import Hypothesis, Observed, Problem
+from tests.inference.tones import DRAG, RATE, RIPPLE, SAMPLES, TIME, TRUE, null_of
+
+SWING = Hypothesis("swing", (("swing", "here"),), (
+    Parameter("share", "1", 0.1, HalfNormal(0.2), null=0.0), Parameter("frequency", "Hz", 2.0, LogUniform(0.1, 50.0)),
+    Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))))
 
 
 def test_a_tone_has_one_size_one_frequency_and_one_phase_at_most():
     assert tone_of(RIPPLE) == Tone(0, 1, 2) and tone_of(DRAG) is None
     resonance = replace(RIPPLE, parameters=RIPPLE.parameters[:2])
     assert tone_of(resonance) == Tone(0, 1, None)
+    assert tone_of(SWING) == Tone(0, 1, 2, modulates=True)
+
+
+def swinging(hypothesis, values, run):
+    """A carrier of 9 Hz of known level that swings, the nominal model without."""
+    angle = 2 * np.pi * values.get("frequency", 1.0) * TIME - values.get("phase", 0.0)
+    swing = values.get("share", 0.0) * np.cos(angle)
+    return values["level"] * ((1 + swing) * np.cos(2 * np.pi * 9.0 * TIME))[None]
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("frequency", [1.37, 6.2, 23.4])
+def test_a_modulation_begins_at_its_own_frequency_and_not_at_those_that_are_heard(frequency):
+    true, random = {"level": 1.2, "share": 0.3, "frequency": frequency, "phase": 0.8}, np.random.default_rng(0)
+    nominal = Hypothesis("nominal", (), (Parameter("level", "m", 1.0, Normal(1.0, 0.3)),))
+    run = Observed("one", {}, ("x",), np.zeros((1, SAMPLES)), RATE, noise_std=np.array([0.02]))
+    run = replace(run, samples=swinging(nominal, true, run) + 0.02 * random.standard_normal((1, SAMPLES)))
+    problem = Problem((run,), swinging, nominal)
+    null = calibrate(problem, tuple(budget(problem)[r.name] for r in problem.training), nominal, [nominal.nominal],
+                     problem.training)
+    width = RATE / SAMPLES
+    assert abs(modulations(null) - frequency).min() < width / 2
+    assert abs(standing_out(null) - frequency).min() > width
+    found = problem.nominal.joined(SWING).values(starts(problem, null, SWING)[0])
+    assert found["frequency"] == pytest.approx(frequency, abs=width / 2)
+    assert found["share"] == pytest.approx(0.3, rel=0.3)
 
 
 @pytest.mark.exact
