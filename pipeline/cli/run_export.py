@@ -55,10 +55,12 @@ def modes(run, file, body):
     """
     from pipeline.contract import ConfigError
     from pipeline.exports import mode_set
+    from pipeline.exports.run_products import refuse_existing
 
     kind = file.suffix.lower()
     if kind not in (".unv", ".uff", ".vtkhdf"):
         raise ConfigError(file, "a name that ends in .unv, .uff or .vtkhdf", repr(file.suffix))
+    refuse_existing(file)
     chosen = mode_set.body_modes_of(run, body) if body else mode_set.complex_modes_of(run)
     if kind == ".vtkhdf":
         from pipeline.exports.vtkhdf_modes import write_vtkhdf as write
@@ -83,9 +85,11 @@ def fmu(run, file, state, contacts):
     from pipeline.contract import ConfigError
     from pipeline.contract.units import to_si
     from pipeline.exports.fmu import contact_unit_of, unit_of, write_fmu
+    from pipeline.exports.run_products import refuse_existing
 
     if file.suffix.lower() != ".fmu":
         raise ConfigError(file, "a name that ends in .fmu", repr(file.suffix))
+    refuse_existing(file)
     step = to_si(contacts, "s", "--contacts") if contacts else None
     if step is not None and not step > 0:
         raise ConfigError("--contacts", "a step above 0", contacts)

@@ -34,7 +34,8 @@ class Typical:
 
     ``stiffness`` N/m, ``damping`` N s/m, effective ``mass`` kg, ``length`` m, ``speed`` m/s (of the drive, for
     contacts; of their motion along sliding where it rests), ``force`` N, ``pressure`` Pa, ``time`` s of the longest
-    run, ``interval`` s between samples, ``drive`` rad/s, ``shown``: largest value in units of the channel.
+    run, ``interval`` s between samples, ``drive`` rad/s where something turns, ``shown``: largest value in units of
+    the channel.
     """
 
     stiffness: float = 1.0
@@ -90,7 +91,8 @@ def typical(kind, bench, location, runs):
     if kind == ASPERITIES:
         return _rubbed(bench, runs)
     drive = max(float(np.abs(run_drive(bench, run)).max()) for run in runs)
-    common = {"time": max(r.duration for r in runs), "interval": 1 / max(r.sample_rate for r in runs), "drive": drive}
+    common = {"time": max(r.duration for r in runs), "interval": 1 / max(r.sample_rate for r in runs),
+              "drive": drive if _turns(bench, runs) else 0.0}
     if kind == CHANNEL_PAIR:
         return Typical(**common)
     if kind == CHANNEL:
@@ -115,6 +117,13 @@ def typical(kind, bench, location, runs):
         seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, location)).max()) for run in runs))
     mass = felt_mass(bench, row) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
+
+
+def _turns(bench, runs):
+    """Whether a drive acts on the bench: contacts slide on it, a speed changes its matrices, or runs tell its speed."""
+    model = bench.model
+    return bool(len(model.contacts.area) or bench.doublets or np.any(model.gyroscopic) or np.any(model.centrifugal)
+                or any(run.drive is not None or "speed" in run.conditions for run in runs))
 
 
 def _rubbed(rubbing, runs):

@@ -150,6 +150,39 @@ class Uniform(_Prior):
 
 
 @dataclass(frozen=True)
+class LogUniform(_Prior):
+    """Between ``low`` and ``high``, both above zero, each of their decades alike."""
+
+    low: float
+    high: float
+
+    def __post_init__(self):
+        self._check(self.high > self.low > 0, "low above zero and below high")
+
+    @property
+    def scale(self):
+        width = np.log(self.high / self.low)
+        return np.sqrt((self.high**2 - self.low**2) / (2 * width) - ((self.high - self.low) / width) ** 2)
+
+    @property
+    def support(self):
+        return self.low, self.high
+
+    def log_density(self, value):
+        value = np.asarray(value, float)
+        inside = (value >= self.low) & (value <= self.high)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(inside, -np.log(value * np.log(self.high / self.low)), -np.inf)[()]
+
+    def value(self, latent):
+        return self.low * (self.high / self.low) ** scipy.special.ndtr(latent)
+
+    def latent(self, value):
+        share = np.log(np.maximum(value, self.low) / self.low) / np.log(self.high / self.low)
+        return _limited(scipy.special.ndtri(np.clip(share, 0.0, 1.0)))
+
+
+@dataclass(frozen=True)
 class Factors(_Prior):
     """One of a few discrete factors ``each``, all as likely, known to a relative ``spread``.
 

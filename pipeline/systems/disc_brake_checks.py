@@ -5,6 +5,11 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.systems.disc_brake_pad import refuse_unfit_shape
 
+#: heights of a disc closer than so many m are one
+SAME_HEIGHT = 1e-6
+#: thinnest layer of elements of a disc, share of its ring
+_THINNEST = 0.02
+
 
 def clamped_radius(parameters):
     """Outer radius of the pressure cones of the bolts where they reach the hub."""
@@ -34,7 +39,33 @@ def refuse_unfit(parameters):
          "inner < bridge inner < bridge outer radius",
          f"{c.inner_radius:g}, {c.bridge_inner_radius:g}, {c.bridge_outer_radius:g} m"),
     )
-    for holds, where, expected, actual in rules:
+    for holds, where, expected, actual in (*rules, *_shape_of_disc(d)):
         meshed = getattr(parameters, where.split(".")[0]).mesh_file and not where.startswith("disc")
         if not holds and not meshed:
             raise ConfigError(f"structure.{where}", expected, actual)
+
+
+def _shape_of_disc(d):
+    """[(whether it holds, where, expected, found)] of the vanes and the hat of a disc."""
+    if d.mesh_file:
+        given = {"vane_count": d.vane_count, "hat_height": d.hat_height}
+        return [(not value, f"disc.{name}", "none beside mesh_file, whose disc has the shape of its mesh", f"{value:g}")
+                for name, value in given.items()]
+    reach, half, cheek = clamped_radius(d), d.ring_thickness / 2, d.cheek_thickness
+    rules = [(not d.hat_height or d.ring_inner_radius - d.hat_thickness > reach, "disc.hat_thickness",
+              f"less than {d.ring_inner_radius - reach:.3g} m, from the clamped radius to the ring",
+              f"{d.hat_thickness:g} m")]
+    if d.vane_count:
+        rules += [(cheek is not None and cheek < half, "disc.cheek_thickness", f"less than half the ring, {half:g} m",
+                   "none" if cheek is None else f"{cheek:g} m"),
+                  (d.vane_count >= 3, "disc.vane_count", "3 vanes or more", f"{d.vane_count}")]
+    if cheek is None or not d.vane_count:
+        return rules
+    web = np.array([0.0, d.web_thickness]) + d.hat_height - half
+    apart = np.diff(np.sort([cheek - half, half - cheek, *web]))
+    thin = apart[(apart > SAME_HEIGHT) & (apart < _THINNEST * d.ring_thickness)]
+    return [*rules, (not d.hat_height or web[1] > half - cheek, "disc.hat_height", "a web that ends above the foot of"
+                     f" the outer cheek, which bears the hat: more than {2 * half - cheek - d.web_thickness:.3g} m",
+                     f"{d.hat_height:g} m"),
+            (not len(thin), "disc.cheek_thickness", "faces of web and cheeks that coincide or are at least"
+             f" {_THINNEST * d.ring_thickness:.2g} m apart", f"{thin.min(initial=np.inf):.2g} m")]

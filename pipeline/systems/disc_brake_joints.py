@@ -230,9 +230,9 @@ def _end_spot(meshes, body, angle, radius, height, size, name):
 
 def _clamping_spots(meshes, parameters, prefix, pad):
     """(place, spot on the backplate, spot on the caliper) at four places of fingers or piston."""
-    j, p, c = parameters.joints, parameters.pad, parameters.caliper
+    j, c = parameters.joints, parameters.caliper
     side = 1 if pad == OUTER else -1
-    back = side * (parameters.disc.ring_thickness / 2 + p.lining_thickness + p.backplate_thickness)
+    back = side * pad_height(parameters)
     caliper = back if pad == OUTER else back - c.piston_gap
     offset = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS)
     for end, forward in (("leading", -1), ("trailing", 1)):

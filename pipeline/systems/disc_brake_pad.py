@@ -1,8 +1,9 @@
-"""A pad of the disc brake: lining with chamfers and a slot, backplate with weights on its ends.
+"""A pad of the disc brake: lining with chamfers and a slot, backplate with weights on its ends, shim.
 
 Heights are distances from the contact face. Chamfers cut both ends of the lining along sliding: its face ends
 ``chamfer_length`` before the pad does, at the mean radius, and the cut is ``chamfer_depth`` high. The slot is radial,
-in the middle of the pad. Weights are denser backplate: inertia without stiffness.
+in the middle of the pad. Weights are denser backplate: inertia without stiffness. The shim covers the back of the
+backplate: a layer of rubber, bonded to it and to a cover of steel, which loses energy as the pad bends and shears it.
 """
 
 from dataclasses import replace
@@ -19,6 +20,8 @@ from pipeline.systems.solids import Solid
 _STEEP = 0.15
 #: most of the length of half a lining that a chamfer and half the slot take
 _TAKEN = 0.8
+#: materials of a shim, from the backplate outwards
+SHIM = ("shim rubber", "shim cover")
 #: what the ends of a pad bear in shares of its added mass: leading, trailing
 _ENDS = {"both": (0.5, 0.5), "leading": (1.0, 0.0), "trailing": (0.0, 1.0)}
 
@@ -35,20 +38,39 @@ def pad(parameters, side):
     depth = face + height
     mesh = revolve(radius, angle, depth if side > 0 else -depth[::-1], mask)
     layer = mesh.cell[:, 2] if side > 0 else len(height) - 2 - mesh.cell[:, 2]
-    steel = layer == len(height) - 2
+    plate_layer = len(height) - (4 if p.shim_rubber_thickness else 2)
+    steel = layer == plate_layer
     mesh = replace(mesh, node=_chamfered(p, mesh.node, side * mesh.node[:, 2] - face)) if p.chamfer_length else mesh
     weights = _weights(p, angle)
     material = steel.astype(int)
     for row, (cell, _) in enumerate(weights, 2):
         material[steel & (mesh.cell[:, 1] == cell % (len(angle) - 1))] = row
+    names, densities, elasticity, loss = _materials(p, [density for _, density in weights])
+    for above, name in enumerate(SHIM if p.shim_rubber_thickness else (), 1):
+        material[layer == plate_layer + above] = names.index(name)
+    return Solid(mesh, material, names, densities, elasticity, p.damping_ratio, np.empty(0, int), loss)
+
+
+def _materials(p, weighted):
+    """(names, densities (m,), elasticities (m, 6, 6), loss factors (m,)); ``weighted``: densities of backplate that
+    bears a weight."""
     lining = orthotropic((p.lining_young_radial, p.lining_young_tangential, p.lining_young_normal),
                          (p.lining_poisson,) * 3,
                          (p.lining_shear_normal, p.lining_shear_normal, p.lining_shear_in_plane))
-    plate = isotropic(p.backplate_young, p.backplate_poisson)
-    return Solid(mesh, material, ("lining", "steel", *["weighted steel"] * len(weights)),
-                 np.array([p.lining_density, p.backplate_density, *(density for _, density in weights)]),
-                 np.array([lining, plate, *[plate] * len(weights)]), p.damping_ratio, np.empty(0, int),
-                 np.array([p.lining_loss_factor, p.backplate_loss_factor, *[p.backplate_loss_factor] * len(weights)]))
+    plate, lost = isotropic(p.backplate_young, p.backplate_poisson), p.backplate_loss_factor
+    table = [("lining", p.lining_density, lining, p.lining_loss_factor), ("steel", p.backplate_density, plate, lost),
+             *(("weighted steel", density, plate, lost) for density in weighted)]
+    if p.shim_rubber_thickness:
+        rubber = isotropic(2 * p.shim_rubber_shear * (1 + p.shim_rubber_poisson), p.shim_rubber_poisson)
+        table += zip(SHIM, (p.shim_rubber_density, p.backplate_density), (rubber, plate),
+                     (p.shim_rubber_loss_factor, 0.0), strict=True)
+    names, *values = zip(*table, strict=True)
+    return names, *(np.array(value) for value in values)
+
+
+def shim_thickness(pad):
+    """Thickness in m of rubber and cover on the back of a backplate; 0 without a shim."""
+    return pad.shim_rubber_thickness + pad.shim_cover_thickness if pad.shim_rubber_thickness else 0.0
 
 
 def mean_radius(pad):
@@ -75,7 +97,9 @@ def _heights(p):
     lines = np.linspace(0, p.lining_thickness, p.lining_layers + 1)
     if depths:
         lines = divided(sorted({0.0, *depths, p.lining_thickness}), p.lining_thickness / p.lining_layers)
-    return np.r_[lines, p.lining_thickness + p.backplate_thickness]
+    back = p.lining_thickness + p.backplate_thickness
+    shim = (back + p.shim_rubber_thickness, back + shim_thickness(p)) if p.shim_rubber_thickness else ()
+    return np.r_[lines, back, shim]
 
 
 def _slotted(p, angle, height):
@@ -128,7 +152,7 @@ def refuse_unfit_shape(pad):
 
 
 def _refuse_beside_file(p):
-    for name in ("chamfer_length", "slot_width", "added_mass"):
+    for name in ("chamfer_length", "slot_width", "added_mass", "shim_rubber_thickness"):
         if getattr(p, name):
             raise ConfigError(f"structure.pad.{name}", "none beside mesh_file, whose pad has the shape of its mesh",
                               f"{getattr(p, name):g}", "mesh it, or leave the file out")

@@ -9,6 +9,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import along, face_points, nearest_faces, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces, face_kind, face_normals
 from pipeline.physics.fem.reference_cells import by_kind
+from pipeline.systems.disc_brake_pad import shim_thickness
 from pipeline.systems.mesh_files.bodies import CONTACT, measured
 from pipeline.systems.solids import Contacts, Rows
 
@@ -24,8 +25,9 @@ def body_names(parameters):
 
 
 def pad_height(parameters):
-    """Distance of the back of the backplates from the middle plane of the disc."""
-    return parameters.disc.ring_thickness / 2 + parameters.pad.lining_thickness + parameters.pad.backplate_thickness
+    """Distance of the back of the pads, shims included, from the middle plane of the disc."""
+    pad = parameters.pad
+    return parameters.disc.ring_thickness / 2 + pad.lining_thickness + pad.backplate_thickness + shim_thickness(pad)
 
 
 def placed(parameters, meshes):

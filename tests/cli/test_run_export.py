@@ -50,3 +50,12 @@ def test_a_unit_by_its_suffix(run, tmp_path):
     said = told("fmu", run, tmp_path / "rig.fmu", "--state", 1)
     assert "linearised about operating point 1 (2 Pa, 3 rad/s)" in said
     assert "inputs: pressure, force.press, force_at.along" in said and (tmp_path / "rig.fmu").stat().st_size
+
+
+@pytest.mark.parametrize("name", ["modes.unv", "rig.fmu"])
+def test_a_file_that_is_there_is_refused_before_anything_is_read(name, tmp_path):
+    """The folder holds no products, which would be told next."""
+    (tmp_path / name).write_text("mine")
+    with pytest.raises(BrakechainError, match="expected a name that is free"):
+        told("modes" if name.endswith("unv") else "fmu", tmp_path, tmp_path / name)
+    assert (tmp_path / name).read_text() == "mine"

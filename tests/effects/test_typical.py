@@ -100,3 +100,12 @@ def test_what_cannot_open_is_no_pressed_contact():
 def test_pairs_of_channels_are_of_one_unit():
     assert locations(CHANNEL_PAIR, sprung()) == () and "x and turn" in locations(CHANNEL_PAIR, rubbing())
     assert typical(CHANNEL_PAIR, rubbing(), "x and y", (let_go(0.02),)).time == 0.5
+
+
+def test_nothing_turns_where_no_contact_slides_and_no_run_tells_a_speed():
+    """The speed that a bench has by default drives nothing on a mass, a spring and a damper."""
+    still, run = sprung(), let_go(0.01)
+    still = replace(still, model=still.model.at_speed(3.0))
+    assert typical("joint", still, "joint_0", [run]).drive == 0.0
+    assert typical("joint", still, "joint_0", [replace(run, conditions={"speed": 6.0})]).drive == 6.0
+    assert typical("joint", still, "joint_0", [replace(run, drive=5.0)]).drive == 5.0

@@ -3,7 +3,8 @@
 import numpy as np
 
 from pipeline.physics.fem.mesh import revolve
-from pipeline.systems.disc_brake import caliper, disc_mesh
+from pipeline.systems.disc_brake import caliper
+from pipeline.systems.disc_brake_disc import disc_mesh
 
 #: corners of the faces S1 to S6 of C3D20
 _FACES = (0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)

@@ -8,7 +8,7 @@ from pipeline.contract import ConfigError, Context
 from pipeline.contract import case as cases
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.products import FrictionMap
-from pipeline.systems.disc_brake import disc_mesh
+from pipeline.systems.disc_brake_disc import disc_mesh
 from stages.structure import Joints, Settings, structure
 from tests.decks.meshes.small_decks import abaqus
 from tests.systems.test_disc_brake import COARSE

@@ -23,7 +23,14 @@ from tests.studies.ledger import FOLDER, Ledger, answer_of
 #: laws of joint friction that are dry friction as a limit of theirs
 _DRY = ("dahl", "lugre", "stribeck_joint", "position_friction", "jenkins", "series_stiffness", "logarithmic_friction",
         "rate_state_ageing", "rate_state_slip", "bouc_wen")
-#: laws of the catalogue that have an effect as a limit of theirs, or make the same force on a rig of one shaker
+#: laws of joint friction that are a spring as long as they do not slip
+_SPRINGS = ("jenkins", "dahl", "lugre", "bouc_wen", "series_stiffness", "hysteretic_joint")
+#: laws that are a spring as long as they do not relax
+_RELAXING = ("viscoelastic_pad", "shim_damping", "hydraulic_compliance")
+#: laws of the catalogue that have an effect as a limit of theirs, beside those whose ``extends`` says so, or make the
+#: same force on a rig of one shaker. A mass m on a spring k' behind a joint k pulls with k - (k^2 / m) /
+#: ((k + k') / m - w^2), a hidden mass m' on a spring k" at the point with k" - (k"^2 / m') / (k" / m' - w^2): the same
+#: at another stiffness of the joint
 CONTAINING = {
     "coulomb": ("asymmetric_friction", "hysteretic_joint", *_DRY),
     "asymmetric_friction": ("coulomb",),
@@ -32,10 +39,10 @@ CONTAINING = {
     "shim_damping": ("viscoelastic_pad", "hydraulic_compliance"),
     "hydraulic_compliance": ("viscoelastic_pad", "shim_damping"),
     "hysteretic_joint": ("micro_slip", "jenkins", "series_stiffness", "dahl", "lugre", "bouc_wen"),
-    "backlash": ("clearance",), "moving_base": ("base_shake", "second_mode"),
+    "backlash": ("clearance",), "moving_base": ("base_shake", "second_mode", "tuned_absorber"),
     "base_shake": ("pressure_ripple",), "pressure_ripple": ("base_shake",),
     "compliant_arm": ("series_stiffness", "second_mode"),
-    "attached_mass": ("tuned_absorber", "second_mode"), "added_stiffness": ("tuned_absorber",),
+    "attached_mass": ("tuned_absorber", "second_mode"), "added_stiffness": ("tuned_absorber", *_SPRINGS, *_RELAXING),
     "sensor_gain": ("unit_factor",),
 }
 #: draws of every effect at every noise
@@ -53,8 +60,8 @@ def plans(draws=DRAWS, first=500_000):
 
 def removed(name):
     """Effects of the catalogue without which a case of effect ``name`` is solved."""
-    known = {effect.name for effect in CATALOGUE}
-    return tuple(n for n in (name, *CONTAINING.get(name, ())) if n in known)
+    containing = {*CONTAINING.get(name, ()), *(effect.name for effect in CATALOGUE if name in effect.extends)}
+    return tuple(effect.name for effect in CATALOGUE if effect.name == name or effect.name in containing)
 
 
 def misnamed(answer):

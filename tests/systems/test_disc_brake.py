@@ -5,7 +5,8 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.axisymmetric_disc import section_frequencies
-from pipeline.systems.disc_brake import build, clamped_nodes, disc_mesh, pad
+from pipeline.systems.disc_brake import build, pad
+from pipeline.systems.disc_brake_disc import clamped_nodes, disc_mesh
 from stages.structure import Caliper, Disc, Pad, Settings
 
 COARSE = {"disc": Disc(web_cells=2, ring_cells=3, angular_cells=24), "pad": Pad(cells_per_patch=1, lining_layers=1),

@@ -13,7 +13,13 @@ class Disc(FromMesh):
     ring_outer_radius: Quantity("m", gt=0) = option("156.7 mm", "outer radius of the friction ring")
     ring_thickness: Quantity("m", gt=0) = option("6.87 mm", "thickness of the friction ring")
     bore_radius: Quantity("m", gt=0) = option("35.1 mm", "radius of the bore")
-    web_thickness: Quantity("m", gt=0) = option("4.26 mm", "thickness of the web, flush with the inner face")
+    web_thickness: Quantity("m", gt=0) = option("4.26 mm", "thickness of the web, flush with the inner face or on"
+                                                " the hat")
+    hat_height: Quantity("m", ge=0) = option("0 mm", "by how much a hat raises the web above the inner face; 0 = none")
+    hat_thickness: Quantity("m", gt=0) = option("6 mm", "thickness of the wall of the hat, inside the ring")
+    vane_count: int = option(0, "radial vanes between the two cheeks of a ventilated ring; 0 = solid", ge=0)
+    vane_share: float = option(0.4, "share of the circumference that they fill", gt=0, lt=1)
+    cheek_thickness: Quantity("m", gt=0) | None = option(None, "thickness of each cheek of a ventilated ring")
     young: Quantity("Pa", gt=0) = option("120 GPa", "Young's modulus")
     poisson: float = option(0.27, "Poisson's ratio", gt=-1, lt=0.5)
     density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")
@@ -52,6 +58,15 @@ class Pad(FromMesh):
     slot_depth: Quantity("m", gt=0) | None = option(None, "its depth from the face")
     added_mass: Quantity("kg", ge=0) = option("0 g", "weights on the ends of the backplate of each pad, in all")
     added_mass_at: Literal["both", "leading", "trailing"] = option("both", "ends that bear them, each the same")
+    shim_rubber_thickness: Quantity("m", ge=0) = option("0 mm", "shims on the backs of the backplates: thickness of the"
+                                                        " rubber between backplate and cover; 0 = none")
+    shim_cover_thickness: Quantity("m", gt=0) = option("0.5 mm", "thickness of their covers, of the steel of the"
+                                                       " backplate")
+    shim_rubber_shear: Quantity("Pa", gt=0) = option("20 MPa", "shear modulus of the rubber at frequencies of squeal"
+                                                     " and the temperature of the shim")
+    shim_rubber_poisson: float = option(0.48, "Poisson's ratio of the rubber", gt=0, lt=0.499)
+    shim_rubber_density: Quantity("kg/m^3", gt=0) = option("1200 kg/m^3", "density of the rubber")
+    shim_rubber_loss_factor: float = option(0.5, "loss factor of the rubber", ge=0)
     lining_young_radial: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, radial")
     lining_young_tangential: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, along sliding")
     lining_young_normal: Quantity("Pa", gt=0) = option("1.5 GPa", "bulk Young's modulus of the lining through its"

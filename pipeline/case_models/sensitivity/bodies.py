@@ -1,8 +1,8 @@
 """Moduli, densities, loss factors and damping ratios of the bodies of a brake, in its reduced matrices.
 
 A body scales with its modulus and density, where it has several materials with those of all. A pad is lining and
-backplate: the moduli of the lining change by one factor, its densities together. Shapes that the bodies are reduced to
-stay.
+backplate: the moduli of the lining change by one factor, its densities together; behind a lining with a shim nothing is
+changed. Shapes that the bodies are reduced to stay.
 """
 
 from dataclasses import replace
@@ -13,7 +13,7 @@ import numpy as np
 from pipeline.physics.reduction.craig_bampton import modal_damping
 
 TYPICAL_LOSS = 0.01
-PAD, LINING = "pad", "lining"
+PAD, LINING, SHIM = "pad", "lining", "shim rubber"
 
 
 def body_parameters(model, structure):
@@ -49,6 +49,8 @@ def _materials(name, model, body, coordinates, whole, damp):
         moduli = [(f"{name}.lining_young", lining, body, first, "lining_stiffness"),
                   (f"{name}.backplate_young", whole - lining, body, 1 - first, "")]
         losses = [f"{name}.lining_loss_factor", f"{name}.backplate_loss_factor"]
+        if SHIM in body.material_name:       # what is behind the lining is not one material, and stays in one part
+            del moduli[1:], losses[1:]
     for (modulus, stiffness, each, material, source), loss in zip(moduli, losses, strict=True):
         value, factor = _young(each.elasticity[material]), float(each.loss_factor[material])
         found.append((modulus, value, "Pa", value, source, partial(_stiffer, damp, stiffness, factor)))

@@ -99,6 +99,9 @@ def on_rigid_disc(family, bodies):
     unknown = [body for body in bodies if body not in names]
     if unknown:
         raise ConfigError("line_evidence.disc", f"bodies among {', '.join(names)}", ", ".join(unknown))
+    if set(bodies) >= set(names):
+        raise ConfigError("line_evidence.disc", f"not every body, of {', '.join(names)}", ", ".join(bodies),
+                          "name the bodies of the disc alone: the others must move where it is rigid")
     kept = np.flatnonzero(~np.isin(family.model.coordinate_body, [names.index(body) for body in bodies]))
     block = np.ix_(kept, kept)
     return replace(family, model=family.model.held(*bodies), loss=family.loss[block],

@@ -1,17 +1,18 @@
 """Linear elasticity on hexahedra, tetrahedra and wedges: stiffness, mass and the matrices of rotation.
 
-Element matrices are formed in batches and summed node block by node block. Degree of freedom =
-3 node + axis; strains in the order xx yy zz yz xz xy (shear as engineering strain); vertices in the
+Stiffness and mass are formed element by element and added at once (``elastic_sums``), the others in batches. Degree of
+freedom = 3 node + axis; strains in the order xx yy zz yz xz xy (shear as engineering strain); vertices in the
 order of meshio; cells of several kinds as ``reference_cells`` describes them.
 """
 
 from functools import wraps
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.elastic_constants import shear_modulus
+from pipeline.physics.fem.elastic_sums import elastic_sums
+from pipeline.physics.fem.node_graph import summed_scalars
 from pipeline.physics.fem.reference_cells import by_kind, quadrature, shape_functions
 
 #: share of the 2 x 2 x 2 points in the stiffness: they let thin parts bend freely, the rest holds hourglass shapes
@@ -74,23 +75,17 @@ def assemble(node, element, kind, material, density, elasticity):
 
     Raises ConfigError for an unknown kind or an element turned inside out.
     """
-    elasticity, density = np.asarray(elasticity), np.asarray(density)
-
-    def stiffnesses(gradient, shape, volume, rows):
-        strain = _strain(gradient)
-        stress = elasticity[material[rows]][:, None] @ (strain * volume[..., None, None])
-        e, q, _, n = strain.shape
-        return (strain.reshape(e, 6 * q, n).swapaxes(1, 2) @ stress.reshape(e, 6 * q, n),)
-
-    def masses(gradient, shape, volume, rows):
-        return (_products(shape, shape, volume * density[material[rows]][:, None]),)
-
-    stiffness, = _element_matrices(node, element, kind, stiffnesses)
+    point, weight = quadrature(kind)
+    shape, gradient = shape_functions(kind, point)
+    carried = weight
     if kind in _REDUCED_SHARE:
-        reduced, = _element_matrices(node, element, kind, stiffnesses, _REDUCED_ORDER)
-        stiffness += _REDUCED_SHARE[kind] * (reduced - stiffness)
-    mass, = _element_matrices(node, element, kind, masses)
-    return sum_blocks(stiffness, element, len(node)), _sum_scalars(mass, element, len(node))
+        share, (fewer, reduced) = _REDUCED_SHARE[kind], quadrature(kind, _REDUCED_ORDER)
+        gradient = np.concatenate((gradient, shape_functions(kind, fewer)[1]))
+        weight = np.concatenate(((1 - share) * weight, share * reduced))
+    stiffness, mass = elastic_sums(node, element, material, (gradient, weight, shape, carried), elasticity, density)
+    if stiffness is None:
+        raise _inside_out(*mass)
+    return stiffness, mass
 
 
 @_each_kind
@@ -114,7 +109,7 @@ def gyroscopic(node, element, kind, material, density):
         return product - product.swapaxes(1, 2), _products(turn, turn, mass)
 
     whirl, convective = _element_matrices(node, element, kind, matrices)
-    return _sum_scalars(whirl, element, len(node)), _sum_scalars(convective, element, len(node))
+    return summed_scalars(whirl, element, len(node)), summed_scalars(convective, element, len(node))
 
 
 @_each_kind
@@ -147,7 +142,7 @@ def geometric_stiffness(node, element, kind, material, elasticity, displacement)
             stress[..., i, j] = stress[..., j, i] = voigt[..., k]
         return (np.einsum("eq,eqai,eqij,eqbj->eab", volume, gradient, stress, gradient, optimize=True),)
 
-    return _sum_scalars(_element_matrices(node, element, kind, matrices)[0], element, len(node))
+    return summed_scalars(_element_matrices(node, element, kind, matrices)[0], element, len(node))
 
 
 def _element_matrices(node, element, kind, matrices, order=None):
@@ -161,8 +156,7 @@ def _element_matrices(node, element, kind, matrices, order=None):
         volume = np.linalg.det(jacobian)
         if volume.min() <= 0:
             worst = start + int(np.argmin(volume.min(axis=1)))
-            raise ConfigError(f"mesh, element {worst}", "a positive Jacobian", f"{volume.min():.3g} m^3",
-                              "check its vertex order (meshio) and its shape")
+            raise _inside_out(worst, volume.min())
         gradient = reference_gradient @ np.linalg.inv(jacobian)
         results.append(matrices(gradient, shape, volume * weight, rows))
     return tuple(np.concatenate(parts) for parts in zip(*results, strict=True))
@@ -182,28 +176,6 @@ def _products(left, right, weight):
     return (left * weight[..., None]).swapaxes(-1, -2) @ right
 
 
-def _sum_scalars(matrix, element, nodes):
-    """Sum (e, v, v) node matrices; the same for each axis."""
-    return scipy.sparse.kron(_summed(matrix, element, nodes), scipy.sparse.identity(3), format="csr")
-
-
-def sum_blocks(matrix, element, nodes):
-    """Sum (e, 3v, 3v) matrices of elements with (e, v) nodes to (3 nodes, 3 nodes) CSR."""
-    e, v = element.shape
-    blocks = matrix.reshape(e, v, 3, v, 3).swapaxes(2, 3).reshape(e, v, v, 9)
-    return _summed(blocks, element, nodes)
-
-
-def _summed(entries, element, nodes):
-    """Sum (e, v, v) scalars to (n, n) CSR, or (e, v, v, 9) blocks to (3n, 3n) CSR, in one fixed order."""
-    v = element.shape[1]
-    rows, columns = np.repeat(element, v, axis=1).ravel(), np.tile(element, v).ravel()
-    key = rows.astype(np.int64) * nodes + columns
-    order = np.argsort(key, kind="stable")
-    first = np.flatnonzero(np.r_[True, np.diff(key[order]) > 0])
-    data = np.add.reduceat(entries.reshape(len(key), -1)[order], first, axis=0)
-    indptr = np.searchsorted(rows[order][first], np.arange(nodes + 1))
-    indices = columns[order][first]
-    if entries.ndim == 3:
-        return scipy.sparse.csr_matrix((data[:, 0], indices, indptr), (nodes, nodes))
-    return scipy.sparse.bsr_matrix((data.reshape(-1, 3, 3), indices, indptr), (3 * nodes, 3 * nodes)).tocsr()
+def _inside_out(element, volume):
+    return ConfigError(f"mesh, element {element}", "a positive Jacobian", f"{volume:.3g} m^3",
+                       "check its vertex order (meshio) and its shape")

@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.fem.elasticity import sum_blocks
 from pipeline.physics.fem.mesh import face_kind, face_normals
+from pipeline.physics.fem.node_graph import summed_blocks
 from pipeline.physics.fem.reference_cells import MIXED_FACES, by_kind, quadrature, shape_functions
 
 _CANDIDATES = 9
@@ -121,7 +121,7 @@ def foundation(node, face, stiffness):
     product = np.einsum("fq,qa,qb->fab", face_points(node, face)[1], shape, shape, optimize=True)
     blocks = np.einsum("fab,ij->faibj", product, stiffness)
     size = 3 * face.shape[1]
-    return sum_blocks(blocks.reshape(-1, size, size), face, len(node))
+    return summed_blocks(blocks.reshape(-1, size, size), face, len(node))
 
 
 def project(corner, kind, point):

@@ -8,10 +8,8 @@ from pipeline.physics.numerics.sparse_solver import factorise
 
 #: largest accepted error of an eigenvalue of the shifted problem, relative
 _TOLERANCE = 1e-7
-#: automatic shift: share of the frequency limit, or of the largest ratio of stiffness and mass diagonals
-_LIMIT_SHARE, _DIAGONAL_SHARE = 0.1, 1e-6
-#: modes sought beyond those counted
-_SPARE = 2
+#: automatic shift: share of the largest ratio of stiffness and mass diagonals
+_DIAGONAL_SHARE = 1e-6
 #: below this size, dense
 _DENSE = 400
 _BLOCK = 8
@@ -30,7 +28,7 @@ def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):
     solver : "pypardiso" or "superlu"
     count : number of modes, or
     below : frequency [Hz] below which all modes are wanted
-    shift : the factorised matrix is K + (2 pi shift)^2 M [Hz]; chosen by itself by default
+    shift : with ``count`` the factorised matrix is K + (2 pi shift)^2 M [Hz]; chosen by itself by default
 
     Returns
     -------
@@ -43,18 +41,15 @@ def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):
     """
     if (count is None) == (below is None):
         raise ConfigError("lowest_modes", "either count or below", f"count = {count}, below = {below}")
-    wanted = count if below is None else _modes_below(stiffness, mass, solver, below)
-    if wanted is not None and wanted > stiffness.shape[0]:
-        raise ConfigError("lowest_modes", f"at most {stiffness.shape[0]} modes", str(wanted))
-    offset = _offset(stiffness, mass, below) if shift is None else (2 * np.pi * shift)**2
-    square, shape = _solve(stiffness, mass, solver, wanted + _SPARE * (below is not None), offset)
-    frequency = np.sqrt(np.maximum(square, 0)) / (2 * np.pi)
-    if below is not None:
-        kept = frequency < below
-        if kept.sum() != wanted:
-            raise ConvergenceError("lowest_modes", f"{wanted} modes below {below:g} Hz (inertia)", str(kept.sum()),
-                                   "change the frequency limit a little")
-        frequency, shape = frequency[kept], shape[:, kept]
+    if count is not None and count > stiffness.shape[0]:
+        raise ConfigError("lowest_modes", f"at most {stiffness.shape[0]} modes", str(count))
+    if below is None:
+        offset = _offset(stiffness, mass) if shift is None else (2 * np.pi * shift)**2
+        square, shape = _solve(stiffness, mass, solver, count, offset)
+    else:
+        square, shape = _below(stiffness, mass, solver, below)
+    order = np.argsort(square, kind="stable")
+    frequency, shape = np.sqrt(np.maximum(square[order], 0)) / (2 * np.pi), shape[:, order]
     largest = shape[np.argmax(np.abs(shape), axis=0), np.arange(shape.shape[1])]
     return frequency, shape * np.sign(largest)
 
@@ -73,62 +68,96 @@ def slopes(frequency, shape, before, after):
     return (pulled - square * carried) / (2 * square)
 
 
-def _modes_below(stiffness, mass, solver, below):
-    negative = factorise(stiffness - (2 * np.pi * below)**2 * mass, solver).negative
-    if negative is None:
-        raise ConvergenceError("lowest_modes", "a factor without row exchanges to count modes", "exchanges",
-                               "change the frequency limit a little, or use the solver pypardiso")
-    return negative
-
-
-def _offset(stiffness, mass, below):
-    if below is not None:
-        return (2 * np.pi * _LIMIT_SHARE * below)**2
+def _offset(stiffness, mass):
     return _DIAGONAL_SHARE * (stiffness.diagonal() / mass.diagonal()).max()
 
 
+def _below(stiffness, mass, solver, below):
+    """Squared angular frequencies (m,) below a frequency, ascending, and shapes (n, m).
+
+    One factor of K - (2 pi below)^2 M serves twice: its inertia counts them, and its inverse turns them into its
+    negative eigenvalues, all of which Lanczos' method must find.
+    """
+    limit = (2 * np.pi * below)**2
+    factor = factorise(stiffness - limit * mass, solver)
+    if factor.negative is None:
+        raise ConvergenceError("lowest_modes", "a factor without row exchanges to count modes", "exchanges",
+                               "change the frequency limit a little, or use the solver pypardiso")
+    size = stiffness.shape[0]
+    if _is_dense(size, factor.negative):
+        square, shape = _dense(stiffness, mass, factor.negative)
+    elif factor.negative:
+        shifted, shape = _lanczos(factor, mass, factor.negative, -1)
+        _refuse_inaccurate(factor, mass, shifted, shape)
+        square = np.einsum("nm,nm->m", shape, stiffness @ shape)    # far from the shift better than by its eigenvalue
+    else:
+        square, shape = np.zeros(0), np.zeros((size, 0))
+    if not (square < limit).all():
+        raise ConvergenceError("lowest_modes", f"{factor.negative} modes below {below:g} Hz (inertia)",
+                               str(int((square < limit).sum())), "change the frequency limit a little")
+    return square, shape
+
+
 def _solve(stiffness, mass, solver, count, offset):
-    """(m,) squared angular frequencies, ascending, and (n, m) shapes."""
+    """(m,) squared angular frequencies, ascending, and (n, m) shapes of the lowest ``count`` modes."""
     size = stiffness.shape[0]
     if count == 0:
         return np.zeros(0), np.zeros((size, 0))
-    if size < _DENSE or count > size // 8:
-        square, shape = scipy.linalg.eigh(stiffness.toarray(), mass.toarray())
-        return square[:count], shape[:, :count]
+    if _is_dense(size, count):
+        return _dense(stiffness, mass, count)
     factor = factorise(stiffness + offset * mass, solver)
     shifted, shape = _lanczos(factor, mass, count)
     _refuse_inaccurate(factor, mass, shifted, shape)
     return shifted - offset, shape
 
 
-def _lanczos(factor, mass, count):
-    """Smallest ``count`` eigenvalues of (A, M) and their vectors; ``factor`` solves with A.
+def _is_dense(size, count):
+    return size < _DENSE or count > size // 8
+
+
+def _dense(stiffness, mass, count):
+    square, shape = scipy.linalg.eigh(stiffness.toarray(), mass.toarray())
+    return square[:count], shape[:, :count]
+
+
+def _lanczos(factor, mass, count, sign=1):
+    """The ``count`` eigenvalues of (A, M) of this ``sign`` next to zero, ascending, and their vectors; of those below
+    zero all there are. ``factor`` solves with A.
 
     Block Lanczos on A^-1 M with full reorthogonalisation in the mass norm (Grimes, Lewis and
     Simon 1994, without restart): whole blocks keep double modes together and solve several
     right-hand sides at once.
     """
     size, most = mass.shape[0], min(_LONGEST * count + 20 * _BLOCK, mass.shape[0] // 2)
-    basis, inertia = (np.empty((size, most + _BLOCK), order="F") for _ in range(2))
-    inverse = np.zeros((most + _BLOCK, most + _BLOCK))
+    basis, inverse = np.empty((size, most + _BLOCK), order="F"), np.zeros((most + _BLOCK, most + _BLOCK))
     start = factor.solve(mass @ np.random.default_rng(0).standard_normal((size, _BLOCK)))
-    basis[:, :_BLOCK], inertia[:, :_BLOCK], _ = _orthonormal(start, mass)
+    basis[:, :_BLOCK], inertia, _ = _orthonormal(start, mass)
     for done in range(_BLOCK, most + 1, _BLOCK):
         now, after = slice(done - _BLOCK, done), slice(done, done + _BLOCK)
         recent = slice(max(done - 2 * _BLOCK, 0), done)
-        image = factor.solve(inertia[:, now])
-        inverse[recent, now] = inertia[:, recent].T @ image
+        image = factor.solve(inertia)
+        inverse[recent, now] = basis[:, recent].T @ (mass @ image)
         image -= basis[:, recent] @ inverse[recent, now]
-        image -= basis[:, :done] @ (inertia[:, :done].T @ image)
-        basis[:, after], inertia[:, after], rest = _orthonormal(image, mass)
+        image -= basis[:, :done] @ (basis[:, :done].T @ (mass @ image))
+        basis[:, after], inertia, rest = _orthonormal(image, mass)
         if done >= count and (done - count) // _BLOCK % _CHECK_EVERY == 0:
-            value, vector = scipy.linalg.eigh(inverse[:done, :done], subset_by_index=(done - count, done - 1),
-                                              lower=False)
-            error = np.linalg.norm(rest @ vector[-_BLOCK:], axis=0) / value
-            if error.max() < _LANCZOS_TOLERANCE:
+            wanted = (done - count, done - 1) if sign > 0 else (0, count - 1)
+            value, vector = scipy.linalg.eigh(inverse[:done, :done], subset_by_index=wanted, lower=False)
+            error = np.linalg.norm(rest @ vector[-_BLOCK:], axis=0) / abs(value)
+            if error.max() < _LANCZOS_TOLERANCE and (sign * value > 0).all():
+                if sign < 0:
+                    _refuse_uncounted(inverse[:done, :done], count)
                 return 1 / value[::-1], basis[:, :done] @ vector[:, ::-1]
     raise ConvergenceError("lowest_modes", f"{count} modes within {most} Lanczos vectors", "less",
                            "change the shift or ask for fewer modes")
+
+
+def _refuse_uncounted(inverse, count):
+    """Of ``count`` eigenvalues below zero no more may be found (of fewer there are never more)."""
+    found = int((scipy.linalg.eigvalsh(inverse, lower=False) < 0).sum())
+    if found != count:
+        raise ConvergenceError("lowest_modes", f"{count} modes below the limit (inertia)", str(found),
+                               "change the frequency limit a little")
 
 
 def _orthonormal(block, mass):

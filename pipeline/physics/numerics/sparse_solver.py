@@ -138,9 +138,17 @@ class _Pardiso(_Factor):
 
 def _upper_triangle(matrix):
     """Upper triangle in CSR with every diagonal entry stored, zero or not, as PARDISO wants it."""
-    upper, diagonal = scipy.sparse.triu(matrix, format="coo"), np.arange(matrix.shape[0])
-    rows, columns = np.r_[upper.row, diagonal], np.r_[upper.col, diagonal]
-    return scipy.sparse.csr_matrix((np.r_[upper.data, 0 * diagonal], (rows, columns)), matrix.shape)
+    rows = np.repeat(np.arange(matrix.shape[0], dtype=matrix.indices.dtype), np.diff(matrix.indptr))
+    kept = matrix.indices >= rows
+    indptr = np.concatenate(([0], np.cumsum(kept)))[matrix.indptr]
+    diagonal = np.zeros(matrix.shape[0], bool)
+    diagonal[rows[matrix.indices == rows]] = True
+    upper = scipy.sparse.csr_matrix((matrix.data[kept], matrix.indices[kept], indptr), matrix.shape)
+    if diagonal.all():
+        return upper
+    lacking, upper = np.flatnonzero(~diagonal), upper.tocoo()
+    rows, columns = np.r_[upper.row, lacking], np.r_[upper.col, lacking]
+    return scipy.sparse.csr_matrix((np.r_[upper.data, 0 * lacking], (rows, columns)), matrix.shape)
 
 
 class _PardisoCall:

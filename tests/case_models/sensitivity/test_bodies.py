@@ -37,3 +37,17 @@ def test_a_disc_of_two_materials_scales_as_one():
     model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
     names = {name for name, *_ in body_parameters(model, replace(structure, disc=two))}
     assert {"structure.disc.young", "structure.disc.densities", "structure.disc.loss_factor"} <= names
+
+
+def test_behind_a_lining_with_a_shim_nothing_has_a_slope():
+    """Backplate, rubber and cover are one part of the reduced stiffness, which none of their moduli scales."""
+    structure, named = small_structure(), {}
+    model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
+    for layers in (("lining", "steel"), ("lining", "steel", "shim rubber", "shim cover")):
+        pad, count = structure.pad_outer, len(layers)
+        pad = replace(pad, material_name=list(layers), density=np.repeat(pad.density[:1], count),
+                      elasticity=np.repeat(pad.elasticity[:1], count, axis=0),
+                      loss_factor=np.repeat(pad.loss_factor[:1], count))
+        named[count] = {name for name, *_ in body_parameters(model, replace(structure, pad_outer=pad))}
+    assert named[2] - named[4] == {"structure.pad.backplate_young", "structure.pad.backplate_loss_factor"}
+    assert named[4] < named[2] and "structure.pad.lining_young" in named[4]

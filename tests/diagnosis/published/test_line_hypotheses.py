@@ -120,6 +120,13 @@ def test_a_tone_is_unheard_with_the_stated_probability():
     np.testing.assert_allclose(made.std[0, 0], np.hypot(30, 50))
 
 
+def test_a_disc_without_another_body_cannot_be_held(model):
+    modes = complex_modes(model, small_friction_map(0.6), settings=Modes(friction_steps=2, speeds=("8 rad/s",)))
+    whole = family(model, 1, small_friction_map(0.6), stability_settings(modes))
+    with pytest.raises(ConfigError, match=r"line_evidence.disc: expected not every body"):
+        on_rigid_disc(whole, [str(name) for name in model.body_name])
+
+
 def test_on_a_rigid_disc_the_roots_are_those_of_the_model_with_its_disc_held(model):
     law = small_friction_map(0.6)
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz"))

@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pipeline.effects import named
+from pipeline.effects.typical import Typical
 from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import let_go, sprung
 
@@ -33,3 +34,10 @@ def test_it_follows_the_drive_where_there_is_one():
     x = respond(EFFECT.on(still, "joint_0", {**values, "frequency": 12.0}), run)["x"]
     np.testing.assert_allclose(respond(EFFECT.on(turning, "joint_0", values), replace(run, drive=6.0))["x"], x,
                                atol=1e-12)
+
+
+def test_what_swings_less_than_once_in_a_run_is_a_drift():
+    swings = {drive: next(p for p in EFFECT.parameters(Typical(mass=1.0, stiffness=400.0, time=5.0, drive=drive))
+                          if p.name == "frequency") for drive in (0.0, 6.0)}
+    assert swings[0.0].prior.support[0] == pytest.approx(0.2) and swings[0.0].nominal == pytest.approx(20 / np.pi)
+    assert swings[6.0].prior.support[0] == 0.0

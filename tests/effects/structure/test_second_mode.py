@@ -1,5 +1,7 @@
 """A mode of a body that the model takes as rigid."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -25,3 +27,9 @@ def test_what_moves_otherwise_takes_no_part():
     np.testing.assert_allclose(changed.model.sensor_rows[:, -1], [np.sqrt(0.5), 0, 0])
     np.testing.assert_allclose(changed.model.joints.rows[:, -1], [np.sqrt(0.5), 0, 0])
     np.testing.assert_allclose(changed.model.contacts.tangent[:, -1], np.sqrt(0.5))
+
+
+def test_a_damper_is_no_mode_of_a_body():
+    """What is damped beyond that acts as a damper to the ground: another effect."""
+    damping = next(p for p in named("second_mode").parameters(SimpleNamespace(period=1.0)) if p.name == "damping_ratio")
+    assert 0.2 < damping.prior.support[1] < 0.5

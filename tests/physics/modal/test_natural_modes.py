@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.closed_form.axisymmetric_disc import section_frequencies
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from pipeline.physics.fem.mesh import block, revolve
+from pipeline.physics.modal import natural_modes
 from pipeline.physics.modal.natural_modes import lowest_modes, slopes
-from pipeline.physics.numerics.sparse_solver import available
+from pipeline.physics.numerics.sparse_solver import available, factorise
 
 pytestmark = pytest.mark.exact
 FASTEST = available()[0]
@@ -110,3 +111,25 @@ def test_slopes_are_the_differences_of_frequencies():
     near, far = ([body(beam(10, 0.01 * (1 + side * h))) for side in (-1, 1)] for h in (1e-4, 1e-3))
     ends = [lowest_modes(*matrices, FASTEST, count=10)[0][6:] for matrices in far]
     np.testing.assert_allclose(slopes(frequency, shape, *near) / 2e-4, np.log(ends[1] / ends[0]) / 2e-3, atol=1e-3)
+
+
+@pytest.mark.parametrize("off", [-1, 1])
+def test_a_count_that_the_modes_contradict_is_refused(off, monkeypatch):
+    """Modes below a limit are counted by the inertia and found by Lanczos' method: both must say the same."""
+    mesh = revolve(np.linspace(0.05, 0.15, 4), np.linspace(0, 2 * np.pi, 25), np.linspace(0, 0.01, 2))
+    stiffness, mass = body(mesh)
+
+    def miscounted(matrix, solver):
+        factor = factorise(matrix, solver)
+        factor.negative += off
+        return factor
+
+    monkeypatch.setattr(natural_modes, "factorise", miscounted)
+    with pytest.raises(ConvergenceError, match="lowest_modes: expected"):
+        lowest_modes(stiffness, mass, FASTEST, below=3000)
+
+
+def test_rigid_and_lowest_modes_are_as_good_far_below_the_limit():
+    stiffness, mass = body(revolve(np.linspace(0.05, 0.15, 4), np.linspace(0, 2 * np.pi, 25), np.linspace(0, 0.01, 2)))
+    near, far = (lowest_modes(stiffness, mass, FASTEST, below=below)[0] for below in (1500, 12000))
+    assert far[:6].max() < 1e-3 * far[6] and far[6:len(near)] == pytest.approx(near[6:], rel=1e-9)

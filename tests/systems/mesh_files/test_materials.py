@@ -8,7 +8,7 @@ import pytest
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.fingerprint import settings_of
 from pipeline.physics.fem.elasticity import isotropic
-from pipeline.systems.disc_brake import disc, disc_mesh
+from pipeline.systems.disc_brake_disc import disc, disc_mesh
 from pipeline.systems.mesh_files.bodies import notes as notes_of
 from pipeline.systems.mesh_files.materials import from_file, materials, read
 from stages import model_update

@@ -1,5 +1,7 @@
 """Errors of the models on the page: of samples over their deviation, of features over their noise; squeal of stops."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -36,6 +38,17 @@ def test_errors_of_features_are_counted_in_their_noise():
     assert "830" not in text and "noise alone" not in text
     table = error_table(told())
     assert table.rows[0] == ("stop_a", "fitted", "30", "7", "2") and table.rows[-1][0] == "all held out"
+
+
+def test_held_out_features_within_their_noise_do_not_judge():
+    alike = stop(1)
+    off = 0.5 * alike.noise[:, None] * np.array([[1], [1], [0]])
+    alike = replace(alike, **dict.fromkeys(("nominal", "recalibrated", "completed"), alike.measured + off))
+    product = told(stop_a=stop(0), stop_b=alike)
+    assert differs(product) == (
+        "Held-out runs cannot judge the nominal model, which is within their noise. On fitted runs the error of the"
+        " nominal model is 30 times the noise of the features, 7 times after its parameters are refitted.")
+    assert "predicts the fitted runs within 2 times the noise" in changes(product)
 
 
 def test_errors_of_samples_stay_shares_of_their_deviation():

@@ -21,12 +21,14 @@ def in_noise(product):
 
 def differs(product):
     """Sentence: how far the nominal model is off."""
-    held_out = any(r.held_out for r in product.runs.values())
-    subject = "On held-out runs the" if held_out else "The"
+    held_out, silent = _judging(product)
     nominal, recalibrated, _, noise = _errors(product, held_out)
     if in_noise(product):
-        return (f"{subject} error of the nominal model is {number(nominal, 2)} times the noise of the features,"
+        runs = "On held-out runs" if held_out else "On fitted runs"
+        judged = "Held-out runs cannot judge the nominal model, which is within their noise. " if silent else ""
+        return (f"{judged}{runs} the error of the nominal model is {_times(nominal, 2)} of the features,"
                 f" {number(recalibrated, 2)} times after its parameters are refitted.")
+    subject = "On held-out runs the" if held_out else "The"
     return (f"{subject} error of the nominal model is {percent(nominal, 2)} of the standard deviation of the"
             f" recordings, {percent(recalibrated, 2)} after its parameters are refitted; noise alone would leave"
             f" {percent(noise, 2)}.")
@@ -34,7 +36,7 @@ def differs(product):
 
 def changes(product):
     """Sentence: what the fitted values or the named effects improve; '' where nothing is named."""
-    held_out = any(r.held_out for r in product.runs.values())
+    held_out, _ = _judging(product)
     nominal, recalibrated, completed, noise = _errors(product, held_out)
     runs = "the held-out runs" if held_out else "the fitted runs"
     shown = _times if in_noise(product) else percent
@@ -47,6 +49,15 @@ def changes(product):
     return (f"The completed model predicts {runs} within {shown(completed, 2)} (without the effect, refitted:"
             f" {shown(recalibrated, 2)}{f'; {beside}' if beside else ''}); {percent(product.unexplained_share, 2)} of"
             " the excess error remains unexplained.")
+
+
+def _judging(product):
+    """(whether held-out runs judge the models, whether there are some that cannot): where features of all of them are
+    as the nominal model has them, within their noise, and those of fitted runs are not."""
+    if not any(r.held_out for r in product.runs.values()):
+        return False, False
+    silent = in_noise(product) and _errors(product, True)[0] <= 1 < _errors(product, False)[0]
+    return not silent, bool(silent)
 
 
 def error_table(product):

@@ -1,0 +1,121 @@
+"""The disc: a friction ring, solid or of two cheeks with radial vanes between them, on a web that the hub holds.
+
+The web is flush with the inner face of the ring (z < 0), or raised towards the fingers by a hat, whose wall joins both.
+The disc turns and its mesh does not: vanes, which are no body of revolution, stand where the mesh has them.
+"""
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.groups import named_nodes
+from pipeline.physics.fem.elasticity import isotropic
+from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
+from pipeline.systems.disc_brake_checks import SAME_HEIGHT, clamped_radius
+from pipeline.systems.mesh_files.bodies import solid
+from pipeline.systems.solids import Solid
+
+#: a mount counts as rigid when the web bends into it over less than this share of the clamped width
+_BENDING_SHARE = 0.25
+#: decay length of contact pressure with separation, share of the rms height (Persson 2007, PRL 99, 125502)
+_SEPARATION_SHARE = 0.4
+
+
+def disc(parameters):
+    """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts.
+
+    From a file where one is named, with the materials of ``mesh_files``, held by its ``mount_group`` if stated.
+    """
+    p, where = parameters, "structure.disc.mount_group"
+    if p.mesh_file:
+        return solid(p, "disc", lambda body, table: named_nodes(body, p.mount_group, where) if p.mount_group else
+                     clamped_nodes(body.mesh, p, max(max(material.young) for material in table)))
+    if p.mount_group:
+        raise ConfigError(where, "a set of nodes or a surface of the mesh file: it has none", repr(p.mount_group))
+    mesh = disc_mesh(p)
+    return Solid(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([p.density]),
+                 isotropic(p.young, p.poisson)[None], p.damping_ratio, clamped_nodes(mesh, p),
+                 np.array([float(p.loss_factor)]))
+
+
+def disc_mesh(parameters):
+    """Revolved section of web, hat and ring, one cell across the web, and one across the ring or each of its cheeks."""
+    p = parameters
+    radius, angle, height = _radii(p), _angles(p), _heights(p)
+    r, z = ((line[:-1] + line[1:]) / 2 for line in (radius, height))
+    foot, top = _web(p)
+    web = (r < p.ring_inner_radius)[:, None] & ((z > foot) & (z < top))
+    wall = (r > p.ring_inner_radius - p.hat_thickness) & (r < p.ring_inner_radius)
+    web |= wall[:, None] & ((z > _wall_foot(p)) & (z < top)) & bool(p.hat_height)
+    ring = (r > p.ring_inner_radius)[:, None] & (abs(z) < p.ring_thickness / 2)
+    mask = np.repeat((web | ring)[:, None], len(angle) - 1, axis=1)
+    if p.vane_count:
+        between = ring & (abs(z) < p.ring_thickness / 2 - p.cheek_thickness)
+        middle = (angle[:-1] + angle[1:]) / 2 * p.vane_count / (2 * np.pi) % 1
+        mask &= ~(between[:, None] & (middle > p.vane_share)[:, None])
+    return revolve(radius, angle, height, mask)
+
+
+def _web(p):
+    """Heights of the faces of the web: flush with the inner face of the ring, or raised by the hat."""
+    foot = -p.ring_thickness / 2 + p.hat_height
+    return foot, foot + p.web_thickness
+
+
+def _wall_foot(p):
+    """Height from which the wall of the hat rises: with vanes that of the outer cheek, so that air comes in."""
+    return p.ring_thickness / 2 - p.cheek_thickness if p.vane_count else -p.ring_thickness / 2
+
+
+def _radii(p):
+    """Lines across web and ring, with one where the pressure of the bolts ends and one at the wall of a hat."""
+    reach, ends = clamped_radius(p), [p.bore_radius]
+    inner = p.ring_inner_radius - p.hat_thickness * bool(p.hat_height)
+    clamped = int(np.clip(round(p.web_cells * (reach - p.bore_radius) / (p.ring_inner_radius - p.bore_radius)),
+                          1, p.web_cells - 1))
+    parts = [(reach, clamped), (inner, p.web_cells - clamped)]
+    parts += [(p.ring_inner_radius, 1)] * bool(p.hat_height) + [(p.ring_outer_radius, p.ring_cells)]
+    lines = [np.array(ends)]
+    for end, cells in parts:
+        lines.append(np.linspace(lines[-1][-1], end, cells + 1)[1:])
+    return np.concatenate(lines)
+
+
+def _angles(p):
+    """Lines around; with vanes those of their sides, and between them cells of about 1 / angular_cells."""
+    if not p.vane_count:
+        return np.linspace(0, 2 * np.pi, p.angular_cells + 1)
+    pitch = 2 * np.pi / p.vane_count
+    sides = np.concatenate([pitch * np.array([k, k + p.vane_share]) for k in range(p.vane_count)])
+    return divided([*sides, 2 * np.pi], 2 * np.pi / p.angular_cells)
+
+
+def _heights(p):
+    """Lines of the faces of ring, cheeks, web and hat."""
+    half = p.ring_thickness / 2
+    lines = [-half, half, *_web(p)] + [sign * (half - p.cheek_thickness) for sign in (-1, 1) if p.vane_count]
+    lines = np.sort(lines)
+    return lines[np.concatenate(([True], np.diff(lines) > SAME_HEIGHT))]
+
+
+def clamped_nodes(mesh, parameters, young=None):
+    """Nodes of the inner face that the bolts press on the hub: within the pressure cones of 30 degrees.
+
+    The hub is rigid. Rough metal faces under pressure p are a foundation of stiffness k = p / (0.4 Sq)
+    per area, into which the web bends over the length (E t^3 / 3k)^(1/4). That must be far less than
+    the clamped width, else the mount is no rigid support (ConfigError). ``young``: E, by default the stated
+    one.
+    """
+    p, reach = parameters, clamped_radius(parameters)
+    face = boundary_faces(mesh)
+    normal, middle = face_normals(mesh.node, face)
+    bottom = (normal[:, 2] < -0.99) & (np.hypot(middle[:, 0], middle[:, 1]) < reach)
+    if not bottom.any():
+        raise ConfigError("structure.disc.mesh_file", f"faces towards -z within {reach:g} m to clamp", "none")
+    pressure = p.bolt_count * p.bolt_preload / (np.pi * (reach**2 - p.bore_radius**2))
+    interface, width = pressure / (_SEPARATION_SHARE * p.flange_roughness), reach - p.bore_radius
+    bending = ((young or p.young) * p.web_thickness**3 / (3 * interface))**0.25
+    if bending > _BENDING_SHARE * width:
+        raise ConfigError("structure.disc.bolt_preload",
+                          f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",
+                          f"{bending:.2g} m", "tighten the bolts or smooth the flange")
+    return np.unique(face[bottom])
