@@ -66,7 +66,7 @@ limit_cycle: {speeds: middle, patch: 6}
 
 # Values scatter: how likely is squeal? State what you know of yours under 'sources', and the answer narrows.
 probability: {speeds: middle, least_growth: 10 1/s}
-# What would you change, at what cost? The report puts it beside the brake as it is:
+# What would you change, at what cost? The report puts it beside the brake as it is ('design_search' seeks it):
 # countermeasures: {variants: {shim: {change: {structure.pad.backplate_loss_factor: 0.1}, cost: {mass: 0.1 kg}}}}
 """
 QUICK = """# {name} on coarse grids, for a first try in minutes: no result is converged.

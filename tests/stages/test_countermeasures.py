@@ -1,6 +1,7 @@
 """Stage countermeasures: which variants it asks for, and what its product says of a brake of a few elements."""
 
 from dataclasses import replace
+from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -35,11 +36,12 @@ def drawn(given, draws):
         draws=draws, checked=0, training=2, sources=SOURCES))
 
 
-def made(variants=VARIANTS, draws=40, of_variants=None, context=None, **settings):
+def made(variants=VARIANTS, draws=40, of_variants=None, context=None, search=None, more=MappingProxyType({}),
+         **settings):
     base, empty = brake(), effects({})
-    others = {f"countermeasures.{name}": brake(**BRAKES[name]) for name in variants}
+    others = {f"countermeasures.{name}": brake(**{**BRAKES, **more}[name]) for name in (*variants, *more)}
     return countermeasures(
-        base.modes, base.model, base.friction_map, empty, convergence(), drawn(base, draws),
+        base.modes, base.model, base.friction_map, empty, convergence(), drawn(base, draws), search,
         varied_modes={name: other.modes for name, other in others.items()},
         varied_models={name: other.model for name, other in others.items()},
         varied_maps={name: other.friction_map for name, other in others.items()},
@@ -87,6 +89,28 @@ def test_its_product_survives_its_file(product, tmp_path):
     again = read(Countermeasures, tmp_path / "countermeasures.h5")
     np.testing.assert_array_equal(again.after, product.after)
     assert list(again.state) == list(product.state)
+
+
+SEARCHED = SimpleNamespace(
+    best=1, computed=7, parameter=np.array(["structure.joints.loss_time"]), case_value=np.array(["5 us"]),
+    written=np.array([["5 us"], ["6 us"]]), cost_name=["price"], cost_unit=[""], best_cost=[3.0])
+
+
+def test_the_best_design_of_a_search_is_one_more_variant():
+    settings = Settings.model_validate({"variants": VARIANTS, "draws": 5})
+    sections = {"countermeasures": settings, "probability": Sampled()}
+    asked = countermeasures.further(sections, {"search": SEARCHED}, None)
+    changes = asked["countermeasures.best_design"]
+    assert list(asked) == ["countermeasures.best_design"] and changes["structure.joints.loss_time"] == "6 us"
+    assert changes["probability.draws"] == 5 and changes["complex_modes.followed"] == 0
+    assert countermeasures.further(sections, {"search": None}, None) == {}
+
+
+def test_the_best_design_is_compared_beside_the_declared_variants():
+    product = made(search=SEARCHED, more={"best_design": {"loss": 3.0}})
+    assert list(product.variant) == ["damped", "rougher", "best_design"]
+    assert product.note[2] == "best of 7 brakes of a search" and product.cost[2, 1] == 3.0
+    assert set(product.state[product.mode_variant == 2]) == {"gone"}
 
 
 def test_without_variants_nothing_is_compared():

@@ -75,8 +75,8 @@ def search(space, firsts, evaluate, rules):
 
 
 def _settled(space, known):
-    """Whether nothing can be lower: no growth is left, and costs do not count."""
-    return not space.worth.any() and any(each.growth <= 0 for each in known.values())
+    """Whether nothing can be lower: no growth is left, and no cost that counts."""
+    return (space.worth >= 0).all() and any(each.objective <= 0 for each in known.values())
 
 
 def _course(asked, known, firsts, ended, otherwise):

@@ -51,7 +51,7 @@ def in_rounds(space, growth, budget=40, starts=4, seed=0, slopes=None, **rules):
     def known(point):
         return value(point) if point == own else done.get(point)
 
-    given = Rules(budget, scale=1.0 if own is None else value(own).growth, **rules)
+    given = Rules(budget, scale=(1.0 if own is None else value(own).growth) or 1.0, **rules)
     firsts = first_points(space, starts, seed)
     while True:
         course = search(space, firsts, known, given)

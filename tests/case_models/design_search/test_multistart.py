@@ -109,3 +109,11 @@ def test_starts_spread_over_the_space_and_are_the_same_for_a_seed():
 
 def test_a_list_has_no_more_starts_than_values():
     assert sorted(first_points(space(listed("ab")), 5, seed=0)) == [(0,), (1,)]
+
+
+@pytest.mark.parametrize("worth, asked", [([0.02], 0), ([-0.02], 5)], ids=["costs", "saves"])
+def test_a_stable_case_is_left_unless_change_saves(worth, asked):
+    """Nothing is better than no growth at no cost; where change saves, cheaper brakes are sought."""
+    course, _ = in_rounds(space(ranged(1.5, 1.4, 1.6), worth=worth), flutter, budget=5)
+    assert len(course.asked) <= asked and bool(course.asked) == bool(asked)
+    assert (SETTLED in course.ended) == (not asked)
