@@ -16,9 +16,13 @@ CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready
 TESTED := .venv/.tested
 BIN    := .venv/bin
+#: another interpreter, as 3.13 or python3.13, and its environment; the same tests as 'make test' in an environment
+INTERPRETER = $(patsubst 3.%,python3.%,$(PYTHON))
+OTHER  = .venv-$(subst python,,$(notdir $(PYTHON)))
+FAST  := -m pytest -q -rs -m "not slow" -n auto --dist loadfile
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -52,6 +56,29 @@ test-kernels: $(TESTED)  ## tests sensitive to rounding, with the kernels of oth
 	@for kernel in $(KERNELS); do echo "OpenBLAS kernel $$kernel"; \
 		OPENBLAS_CORETYPE=$$kernel MKL_ENABLE_INSTRUCTIONS=SSE4_2 NUMBA_CPU_NAME=generic \
 		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
+
+test-python:     ## the same tests under another Python with the same lock: PYTHON=3.13
+	@$(INTERPRETER) -c '' 2>/dev/null || { echo "error: PYTHON=$(PYTHON): expected an interpreter, found no $(INTERPRETER);" \
+		"install it, as by 'uv python install $(subst python,,$(notdir $(PYTHON)))'"; exit 2; }
+	$(INTERPRETER) -m venv $(OTHER)
+	$(OTHER)/bin/python -m pip install --quiet --require-hashes --only-binary :all: -r requirements-dev.lock
+	$(OTHER)/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	$(OTHER)/bin/python $(FAST) $(ARGS) $(TESTS)
+
+test-oldest:     ## the same tests with the oldest versions that pyproject.toml allows (found by uv)
+	$(call tested_with,oldest,lowest-direct)
+
+test-newest:     ## the same tests with the newest versions
+	$(call tested_with,newest,highest)
+
+define tested_with
+$(PYTHON) -m venv --clear .venv-$(1)
+.venv-$(1)/bin/python -m pip install --quiet uv
+.venv-$(1)/bin/python -m uv pip install --quiet --python .venv-$(1)/bin/python --only-binary :all: --resolution $(2) \
+	-r pyproject.toml --extra build --extra bench --extra test
+.venv-$(1)/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+.venv-$(1)/bin/python $(FAST) $(ARGS) $(TESTS)
+endef
 
 test-slow: $(TESTED)  ## slow tests: full cases, kill and resume in every stage
 	$(BIN)/python -m pytest -q -m "slow and not study" -n auto --dist worksteal --durations=20 --durations-min=30 $(ARGS) $(TESTS)

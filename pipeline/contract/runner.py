@@ -20,7 +20,7 @@ from pipeline.contract import fingerprint, further, store
 from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
-from pipeline.contract.integrity import checksum, seen
+from pipeline.contract.integrity import checksum, examined, seen
 from pipeline.contract.integrity.verify import recorded
 from pipeline.contract.received import files, names
 from pipeline.contract.stage import Products
@@ -158,6 +158,7 @@ class ChainRun:
 
     def plan(self, first=None, last=None, force=frozenset()):
         """States of the stages from ``first`` to ``last`` in a run that starts now."""
+        self._examine()
         stale, states = set(), []
         for stage in self._span(first, last):
             state = self.state(stage, stale)
@@ -195,10 +196,23 @@ class ChainRun:
                 report(state, None)
             return 0
         with locked(self.folder):
+            new = self._examine()
             try:
                 return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))
             finally:
                 self._note()
+                if new:
+                    self._note_variants()
+
+    def _examine(self):
+        """Have all products that are not known examined by one process; their number."""
+        files = (*self.folder.glob("*.h5"), *self.folder.glob("variants/*/*.h5"))
+        return examined.examine([path for path in files if not seen.flaw(path)])
+
+    def _note_variants(self):
+        """The same as ``_note`` of all variants."""
+        for run in {name: run for stage in self.case.stages for name, run, *_ in self.variants(stage)}.values():
+            run._note()
 
     def _note(self):
         """List what is as it was written: it is not hashed again before it changes."""
@@ -243,6 +257,7 @@ class ChainRun:
             return []
         if not context.sees_files:
             return [done for task in old for done in _computed(task, context)]
+        self._note()        # processes that read what this one wrote know it by the list
         with context.stage(stage):
             return [done for variant in context.map(_computed, old, "variants of the case") for done in variant]
 

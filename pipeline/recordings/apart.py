@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.contract import store
+from pipeline.contract.integrity import examined
 from pipeline.contract.mapped import blocks, map_of, mapped, opened
 from pipeline.contract.received.process import answered
 from pipeline.products import Recording, Run
@@ -33,13 +34,18 @@ def runs(kind, path, **given):
 
     Errors as of ``waveforms``.
     """
-    return answered(_LEAVE, path, lambda folder: store.read(Recording, folder / _RUNS).runs, kind=kind, **given)
+    return answered(_LEAVE, path, _runs_of, kind=kind, **given)
 
 
 def leave(path, folder, kind, **given):
     """In the child process: read the file and leave its content in ``folder``."""
     reader, left = _READERS[kind]
     left(reader(path, folder, **given), Path(folder))
+
+
+def _runs_of(folder):
+    examined.trust(folder / _RUNS)
+    return store.read(Recording, folder / _RUNS).runs
 
 
 def _columns_of(folder):

@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import sys
 import tempfile
 import time
@@ -112,13 +113,15 @@ def inside(reader, path, collect, **given):
 
 @contextlib.contextmanager
 def in_this_process():
-    """Readers that have a process of their own are called in this one."""
+    """Readers that have a process of their own are called in this one, and products are opened here at once."""
     users = [module for module in list(sys.modules.values()) if getattr(module, "answered", None) is process.answered]
     for module in users:
         module.answered = inside
+    os.environ[process._READER] = "1"
     try:
         yield
     finally:
+        del os.environ[process._READER]
         for module in users:
             module.answered = _ANSWERED
 

@@ -32,6 +32,11 @@ def flaw(path):
         return error.strerror or str(error)
 
 
+def is_listed(path):
+    """Whether the product at ``path`` was found to be right in its present state."""
+    return _listed(path) == state(path)
+
+
 def differs(path, digest):
     """Whether the companion at ``path`` is other than its ``digest``; hashed only if it changed since."""
     try:

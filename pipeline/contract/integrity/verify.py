@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pipeline.contract import store
-from pipeline.contract.errors import ProductError
-from pipeline.contract.integrity import checksum
+from pipeline.contract.errors import ConfigError, ProductError
+from pipeline.contract.integrity import checksum, examined
 from pipeline.contract.received import names
 
 
@@ -27,14 +27,23 @@ def verify(folder):
     products = sorted(folder.glob("*.h5")) + sorted(folder.glob("variants/*/*.h5"))
     if not products:
         raise ProductError(folder, "a run folder with products", "none", "name the folder that 'brakechain run' wrote")
-    return [checked for path in products for checked in _of_product(folder, path)]
+    flaws = {path: _flaw(folder, path) for path in products}
+    examined.examine([path for path, told in flaws.items() if not told])
+    return [checked for path, told in flaws.items()
+            for checked in _of_product(folder, path, told or examined.flaw(path))]
 
 
-def _of_product(folder, path):
+def _flaw(folder, path):
+    try:
+        names.within(folder, path.relative_to(folder))
+        return checksum.flaw(path)
+    except (OSError, ConfigError) as error:
+        return str(error)
+
+
+def _of_product(folder, path, told):
     name = str(path.relative_to(folder))
     try:
-        names.within(folder, name)
-        told = checksum.flaw(path)
         companions = {} if told else recorded(store.provenance(path))
     except (OSError, ValueError) as error:
         yield Checked(name, str(error))

@@ -41,3 +41,33 @@ def refuse_outside(group, path):
             node = group.get(name)
             if isinstance(node, h5py.Group):
                 refuse_outside(node, path)
+
+
+def read_whole(path):
+    """Read all attributes and data of a file once; raises whatever HDF5 does, and ConfigError as ``refuse_outside``."""
+    with h5py.File(path, "r") as h5:
+        _read_whole(h5, path, set())
+
+
+def _read_whole(group, path, addresses):
+    _read_attributes(group)
+    for name in group:
+        told = flaw(group, name)
+        if told:
+            raise ConfigError(f"{path}: {name}", "data of this file", told)
+        node = group[name]
+        address = h5py.h5o.get_info(node.id).addr
+        if address in addresses:
+            continue
+        addresses.add(address)
+        if isinstance(node, h5py.Group):
+            _read_whole(node, path, addresses)
+        elif isinstance(node, h5py.Dataset):
+            _read_attributes(node)
+            for scales in node.dims:
+                scales.items()
+            _ = node[()]
+
+
+def _read_attributes(node):
+    dict(node.attrs)

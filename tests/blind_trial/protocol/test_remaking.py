@@ -112,18 +112,23 @@ def test_from_the_command_line(tmp_path, generators):
     assert done.exit_code == 2 and "--key is not needed" in done.output
 
 
-@pytest.mark.parametrize("number", ["foo/../../../victim", "{tmp}/victim", "..", "a\\b"])
+@pytest.mark.parametrize("number", ["foo/../../../victim", "{tmp}/planted", "..", "a\\b"])
 def test_keys_of_a_foreign_truth_lead_nowhere(tmp_path, generators, number):
-    made, victim = make(tmp_path / "a", seed=1), tmp_path / "victim"
-    victim.mkdir()
-    (victim / "file").write_text("mine")
-    truth = made.read("truth.json")
-    made.write("truth.json", {number.format(tmp=tmp_path): truth["001"]})
-    with pytest.raises(ConfigError, match="expected a name of letters, digits"):
-        remaking.repeat(made.folder, tmp_path / "new", InProcess())
-    with pytest.raises(ConfigError, match="expected a name of letters, digits"):
-        remaking.restore(made.folder, InProcess())
-    assert (victim / "file").read_text() == "mine" and not (tmp_path / "new").exists()
+    """What is at the path is not deleted, and nothing is written outside of the set."""
+    made, refusals = make(tmp_path / "a", seed=1), []
+    (tmp_path / "victim").mkdir()
+    (tmp_path / "victim" / "file").write_text("mine")
+    (made.folder / ".remaking" / "foo").mkdir(parents=True)     # a set may bring folders that a key leads through
+    made.write("truth.json", {number.format(tmp=tmp_path): made.read("truth.json")["001"]})
+    before = set(tmp_path.rglob("*"))
+    for again in (remaking.restore, lambda folder, work: remaking.repeat(folder, tmp_path / "new", work)):
+        try:
+            again(made.folder, InProcess())
+        except Exception as error:      # what is refused too late may raise anything
+            refusals.append(error)
+    assert set(tmp_path.rglob("*")) == before
+    assert [type(error) for error in refusals] == [ConfigError] * 2
+    assert all("expected a name of letters, digits" in str(error) for error in refusals)
 
 
 def test_links_in_a_foreign_set_lead_nowhere(tmp_path, generators):

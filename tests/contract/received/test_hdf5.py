@@ -10,18 +10,25 @@ from pipeline.recordings.columns import read_matlab
 from pipeline.recordings.neutral import read_neutral, write_neutral
 
 
+def as_measured(node):
+    """Attributes that make a dataset a channel: nothing but where its data lie is wrong with it."""
+    node.attrs.update(units="m", quantity="displacement", sample_rate=100.0)
+
+
 def external_link(h5, secret):
+    with h5py.File(secret, "a") as other:
+        as_measured(other["x"])
     h5["runs/a/channels/y"] = h5py.ExternalLink(str(secret), "/x")
 
 
 def external_storage(h5, secret):
-    h5["runs/a/channels"].create_dataset("y", (2,), "f8", external=[(str(secret), 0, 16)])
+    as_measured(h5["runs/a/channels"].create_dataset("y", (2,), "f8", external=[(str(secret), 0, 16)]))
 
 
 def virtual(h5, secret):
     layout = h5py.VirtualLayout((3,), "f8")
     layout[:] = h5py.VirtualSource(str(secret), "x", (3,))
-    h5["runs/a/channels"].create_virtual_dataset("y", layout)
+    as_measured(h5["runs/a/channels"].create_virtual_dataset("y", layout))
 
 
 def plugin(h5, _):
@@ -29,6 +36,7 @@ def plugin(h5, _):
     creation.set_chunk((3,))
     creation.set_filter(32015, h5py.h5z.FLAG_OPTIONAL, ())        # zstd
     h5py.h5d.create(h5["runs/a/channels"].id, b"y", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((3,)), creation)
+    as_measured(h5["runs/a/channels/y"])
 
 
 @pytest.mark.parametrize("spoil, told", [

@@ -19,7 +19,7 @@ MERGES = "a: &a {x: 1}\n" + "".join(f"{n}: &{n}\n  <<: [{', '.join([f'*{p}'] * 1
     ("- " * 200_000 + "x", "at most 50 lists"), ("a: " + "x" * 2_000_000, "more than 2000000 bytes"),
     ("a: " + "9" * 5000, "yaml:1: expected a number of at most 300 digits, found 5000"), ("a: *b\n", "undefined alias"),
     ("? [a]\n: 1\n", "unhashable")])
-def test_documents_that_are_refused_in_no_time(tmp_path, text, told):
+def test_documents_that_are_refused_in_no_time(tmp_path, in_time, text, told):
     (tmp_path / "a.yaml").write_text(text)
     begin = time.perf_counter()
     with pytest.raises(ConfigError, match=told) as refusal:

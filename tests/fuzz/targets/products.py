@@ -163,7 +163,7 @@ def _shown(rng):
 
 
 TARGETS = (
-    Target("product", _read, lambda rng: draw(rng, (_unsealed, _edited))(rng), (_whole, _unsealed)),
+    Target("product", _read, lambda rng: draw(rng, (_unsealed, _resealed, _edited))(rng), (_whole, _unsealed), True),
     Target("inspect", _described, lambda rng: draw(rng, (_unsealed, _resealed, _edited))(rng), (_shown,), True),
     Target("run list", _listed, _list_damaged),
 )
