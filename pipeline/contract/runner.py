@@ -5,15 +5,11 @@ import fcntl
 import json
 import os
 import platform
-import subprocess
 import time
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
-from importlib import metadata
 from pathlib import Path
-
-from threadpoolctl import threadpool_info
 
 from pipeline import __version__
 from pipeline.contract import fingerprint, further, store
@@ -21,11 +17,10 @@ from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.integrity import checksum, examined, seen
+from pipeline.contract.integrity.origin import git_commit, kernels, packages
 from pipeline.contract.integrity.verify import recorded
 from pipeline.contract.received import files, names
 from pipeline.contract.stage import Products
-
-_PACKAGES = ("numpy", "scipy", "scikit-fem", "exudyn", "h5py", "numba", "pypardiso", "SurfaceTopography", "pyvista")
 
 
 @dataclass(frozen=True)
@@ -283,8 +278,8 @@ class ChainRun:
             "stage": stage.name, "brakechain": __version__, "git_commit": git_commit(),
             "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(current)),
             "companions": json.dumps({name: checksum.digest_of(companions[name]) for name in sorted(companions)}),
-            "packages": json.dumps(_packages()),
-            "kernels": json.dumps(_kernels()), "python": platform.python_version(), "machine": platform.machine(),
+            "packages": json.dumps(packages()),
+            "kernels": json.dumps(kernels()), "python": platform.python_version(), "machine": platform.machine(),
             "wall_seconds": seconds, "cpu_seconds": cpu_seconds() + context.spent_elsewhere() - cpu})
         for name, content in companions.items():
             store.write_companion(self.folder / name, content)
@@ -382,31 +377,3 @@ def _sweep(folder):
     for half in folder.glob(".*.partial"):
         with suppress(OSError):
             half.unlink()
-
-
-def _packages():
-    versions = {}
-    for name in _PACKAGES:
-        try:
-            versions[name] = metadata.version(name)
-        except metadata.PackageNotFoundError:
-            continue
-    return versions
-
-
-def _kernels():
-    """Linear algebra libraries that are loaded, each with the processor kernel that it uses."""
-    loaded = {f"{library['internal_api']} {library.get('architecture') or ''}".strip() for library in threadpool_info()
-              if library["user_api"] == "blas"}
-    return sorted(loaded)
-
-
-def git_commit():
-    """Commit of the checkout that holds this code, with '+' when it was changed; '' outside one."""
-    here = Path(__file__).parent
-    try:
-        commit = subprocess.run(["git", "describe", "--always", "--abbrev=40", "--dirty=+", "--exclude=*"], cwd=here,
-                                capture_output=True, text=True, check=True, timeout=10)
-    except (OSError, subprocess.SubprocessError):
-        return ""
-    return commit.stdout.strip()

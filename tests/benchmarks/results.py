@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
-from pipeline.contract.runner import git_commit
+from pipeline.contract.integrity.origin import git_commit
 
 FOLDER = Path(__file__).parents[2] / "data" / "runs" / "bench"
 #: tables of a file, each {name: row}

@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.contract.runner import git_commit
+from pipeline.contract.integrity.origin import git_commit
 from tests.chain.run_contents import everything
 from tests.contract.executors.dask_processes import address_of, kill, scheduler, worker
 from tests.studies.ledger import FOLDER

@@ -4,7 +4,7 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
-from pipeline.contract.runner import git_commit
+from pipeline.contract.integrity.origin import git_commit
 
 FOLDER = Path(__file__).parents[2] / "data" / "studies"
 COLUMNS = ("case", "hidden", "noise", "left", "verdict", "named", "cpu_seconds", "commit")

@@ -7,7 +7,7 @@ from pathlib import Path
 from pipeline import __version__, effects
 from pipeline.blind_trial.protocol.case_set import canonical, sha256
 from pipeline.contract.fingerprint import digest
-from pipeline.contract.runner import git_commit
+from pipeline.contract.integrity.origin import git_commit
 from pipeline.inference.rules import DEFAULTS
 
 _ROOT = Path(__file__).parents[3]
