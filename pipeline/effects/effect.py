@@ -74,7 +74,7 @@ class Effect:
         if set(known) != set(values):
             raise ConfigError(f"effect {self.name}: parameters", ", ".join(known), ", ".join(values) or "none")
         for name, value in values.items():
-            low, high = known[name].prior.possible
+            low, high = known[name].prior.support
             if not low <= value <= high:
                 raise ConfigError(f"effect {self.name}: {name}", f"{low:g} to {high:g} {known[name].unit}",
                                   f"{value:g}")

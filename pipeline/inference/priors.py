@@ -24,11 +24,6 @@ class _Prior:
         """Change of the value per latent unit, by central differences."""
         return (self.value(latent + 1e-4) - self.value(latent - 1e-4)) / 2e-4
 
-    @property
-    def possible(self):
-        """(low, high) of what makes sense, where the prior looks at less than that."""
-        return self.support
-
     def quantile(self, share):
         """The value below which ``share`` of the prior lies."""
         return self.value(scipy.special.ndtri(share))
@@ -155,44 +150,6 @@ class Uniform(_Prior):
 
 
 @dataclass(frozen=True)
-class LogUniform(_Prior):
-    """Between ``low`` and ``high``, both above zero, each of their decades alike: where to look, of sizes whose sign
-    alone is fixed."""
-
-    low: float
-    high: float
-
-    def __post_init__(self):
-        self._check(self.high > self.low > 0, "low above zero and below high")
-
-    @property
-    def scale(self):
-        width = np.log(self.high / self.low)
-        return np.sqrt((self.high**2 - self.low**2) / (2 * width) - ((self.high - self.low) / width) ** 2)
-
-    @property
-    def support(self):
-        return self.low, self.high
-
-    @property
-    def possible(self):
-        return 0.0, np.inf
-
-    def log_density(self, value):
-        value = np.asarray(value, float)
-        inside = (value >= self.low) & (value <= self.high)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(inside, -np.log(value * np.log(self.high / self.low)), -np.inf)[()]
-
-    def value(self, latent):
-        return self.low * (self.high / self.low) ** scipy.special.ndtr(latent)
-
-    def latent(self, value):
-        share = np.log(np.maximum(value, self.low) / self.low) / np.log(self.high / self.low)
-        return _limited(scipy.special.ndtri(np.clip(share, 0.0, 1.0)))
-
-
-@dataclass(frozen=True)
 class Factors(_Prior):
     """One of a few discrete factors ``each``, all as likely, known to a relative ``spread``.
 
@@ -258,6 +215,7 @@ class Parameter:
     null: float | None = None
     run: str = ""
     threshold: bool = False
+    within: tuple = (-np.inf, np.inf)
 
     def __post_init__(self):
         low, high = self.prior.support

@@ -8,22 +8,14 @@ import numpy as np
 
 from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
-from pipeline.inference.priors import HalfNormal, LogNormal, LogUniform, Parameter, Uniform
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
 from pipeline.physics.time_stepping.elements import Parametric
-
-#: fastest swing of a joint that no drive turns, over the natural frequency
-_FASTEST = 20.0
 
 
 def parameters(typical):
-    if typical.drive > 0:
-        frequency = typical.drive / (2 * np.pi)
-        swings = LogNormal(frequency, 1.0)
-    else:
-        natural = 1 / (2 * np.pi * typical.period)      # what swings less than once in the longest run is a drift
-        frequency, swings = 2 * natural, LogUniform(min(1 / typical.time, natural), _FASTEST * natural)
+    frequency = typical.drive / (2 * np.pi) if typical.drive > 0 else 1 / (np.pi * typical.period)
     return (Parameter("share", "1", 0.1, HalfNormal(0.2), null=0.0),
-            Parameter("frequency", "Hz", frequency, swings),
+            Parameter("frequency", "Hz", frequency, LogNormal(frequency, 1.0), within=(1 / typical.time, np.inf)),
             Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))
 
 

@@ -12,19 +12,17 @@ import numpy as np
 
 from pipeline.effects.effect import Effect
 from pipeline.effects.resolved import felt_mass
-from pipeline.inference.priors import HalfNormal, LogUniform, Parameter, Uniform
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 
-#: lowest and highest frequency over that of the body on its joints, which is rigid in its mode there
-_RANGE = (1.0, 20.0)
 #: largest damping ratio of a mode of a body, with layers that damp; what is damped more is a damper, not a mode
 _MOST_DAMPED = 0.3
 
 
 def parameters(typical):
-    natural = 1 / (2 * np.pi * typical.period)
+    natural = 1 / (2 * np.pi * typical.period)      # of the body on its joints, which is rigid in its mode there
     return (Parameter("share", "1", 0.3, HalfNormal(0.5), null=0.0),
-            Parameter("frequency", "Hz", 2 * natural, LogUniform(*(share * natural for share in _RANGE))),
-            Parameter("damping_ratio", "1", 0.02, Uniform(0.0, _MOST_DAMPED)))
+            Parameter("frequency", "Hz", 2 * natural, LogNormal(2 * natural, 0.7), within=(natural, np.inf)),
+            Parameter("damping_ratio", "1", 0.02, LogNormal(0.02, 1.0), within=(0.0, _MOST_DAMPED)))
 
 
 def apply(bench, location, values):
@@ -48,5 +46,5 @@ EFFECT = Effect(
     name="second_mode", summary="a mode of a body that the model takes as rigid", location="point", stage="structure",
     parameters=parameters, apply=apply, elaborate=True,
     source="D. J. Ewins, Modal Testing, 2nd ed. (2000): the sum of modes of a free body",
-    valid="Valid while one further mode of the body matters, damped to 30 % of critical at most, and stays below the "
-          "highest mode that the step resolves.")
+    valid="Valid while one further mode of the body matters, above its mode on the joints and below the highest mode that "
+          "the step resolves, damped to 30 % of critical at most.")

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.effects.effect import Effect
-from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 from pipeline.physics.sliding.model import Joints
 
 #: largest damping ratio of a part on rubber, of a loss factor of 0.6; what is damped more is a damper
@@ -21,7 +21,7 @@ def parameters(typical):
     frequency = 1 / (2 * np.pi * typical.period)
     return (Parameter("mass", "kg", 0.05 * typical.mass, HalfNormal(0.1 * typical.mass), null=0.0),
             Parameter("frequency", "Hz", frequency, LogNormal(frequency, 0.7)),
-            Parameter("damping_ratio", "1", 0.03, Uniform(0.0, _MOST_DAMPED)))
+            Parameter("damping_ratio", "1", 0.03, LogNormal(0.03, 1.0), within=(0.0, _MOST_DAMPED)))
 
 
 def apply(bench, location, values):

@@ -12,6 +12,7 @@ from pipeline.inference.fitting.parameter_drift import agreement
 from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.varying_values import followed
 from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.search.score_screen import short_name
 
 
 def held_out_gains(problem, budget, null, fits, posterior, rules):
@@ -61,12 +62,21 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         gained and gained.left(uncertainty), gained and _growth(gained, fit, uncertainty), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "",
-        unfinished(fit, null, rules.evidence) + fit.excluded(LATENT_LIMIT - 1e-6),
+        (*unfinished(fit, null, rules.evidence), *fit.excluded(LATENT_LIMIT - 1e-6), *_beyond(fit, candidate)),
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
         tuple(_varying(fit, [k for k, _ in added], weights, rules.decision))
         + tuple(_beside(fit, null, weights, rules.decision)), gained and gained.error,
         candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered, _nominal_p(fit, null))
+
+
+def _beyond(fit, candidate):
+    """Sentences on values at which an effect is no longer what its name says."""
+    for parameter in candidate.parameters:
+        value, (low, high) = fit.values[parameter.name], parameter.within
+        if not low <= value <= high:
+            side, unit = f"below {low:.3g}" if value < low else f"above {high:.3g}", parameter.unit
+            yield f"its {short_name(parameter)} of {value:.3g} {unit} is {side} {unit}, where it is another law"
 
 
 def _nominal_p(fit, null):

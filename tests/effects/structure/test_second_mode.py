@@ -29,7 +29,8 @@ def test_what_moves_otherwise_takes_no_part():
     np.testing.assert_allclose(changed.model.contacts.tangent[:, -1], np.sqrt(0.5))
 
 
-def test_a_damper_is_no_mode_of_a_body():
+def test_a_damper_and_a_mode_below_the_joints_are_no_mode_of_a_body():
     """What is damped beyond that acts as a damper to the ground: another effect."""
-    damping = next(p for p in named("second_mode").parameters(SimpleNamespace(period=1.0)) if p.name == "damping_ratio")
-    assert 0.2 < damping.prior.support[1] < 0.5
+    found = {p.name: p for p in named("second_mode").parameters(SimpleNamespace(period=0.5))}
+    assert 0.2 < found["damping_ratio"].within[1] < 0.5
+    assert found["frequency"].within[0] == pytest.approx(1 / np.pi) < found["frequency"].nominal

@@ -7,6 +7,7 @@ import pytest
 from scipy import stats
 
 from pipeline.inference.decision.candidate_statistics import (
+    _beyond,
     _immaterial,
     _nominal_p,
     candidate_statistics,
@@ -182,3 +183,14 @@ def test_nominal_values_count_together_under_their_priors():
     hypothesis = replace(null.hypothesis, parameters=(*null.hypothesis.parameters, third, size))
     asked = replace(null, hypothesis=hypothesis, latent=np.array([3.0, 9.0, 9.0]))
     assert _nominal_p(asked, asked) == pytest.approx(stats.chi2.sf(9.0, 1))
+
+
+@pytest.mark.parametrize("ratio, told", [
+    (0.29, []), (0.31, ["its damping_ratio of 0.31 1 is above 0.3 1, where it is another law"])])
+def test_a_value_at_which_an_effect_is_another_one_is_told(ratio, told):
+    _, null = null_of({})
+    shape = Parameter("absorber@mass_0.damping_ratio", "1", 0.03, LogNormal(0.03, 1.0), within=(0.0, 0.3))
+    candidate = Hypothesis("absorber at mass_0", (("absorber", "mass_0"),), (shape,))
+    found = replace(null, hypothesis=null.hypothesis.joined(candidate),
+                    latent=np.append(null.latent, shape.prior.latent(ratio)))
+    assert list(_beyond(found, candidate)) == told

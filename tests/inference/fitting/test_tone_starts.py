@@ -8,12 +8,12 @@ import pytest
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.tone_starts import Tone, modulations, standing_out, starts, tone_of
-from pipeline.inference.priors import HalfNormal, LogUniform, Normal, Parameter, Uniform
+from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis, Observed, Problem
 from tests.inference.tones import DRAG, RATE, RIPPLE, SAMPLES, TIME, TRUE, null_of
 
 SWING = Hypothesis("swing", (("swing", "here"),), (
-    Parameter("share", "1", 0.1, HalfNormal(0.2), null=0.0), Parameter("frequency", "Hz", 2.0, LogUniform(0.1, 50.0)),
+    Parameter("share", "1", 0.1, HalfNormal(0.2), null=0.0), Parameter("frequency", "Hz", 2.0, LogNormal(3.0, 1.5)),
     Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))))
 
 
