@@ -13,7 +13,7 @@ from tests.case_models.design_search.sections import loaded, sections
     ("structure.pad.lining_thickness: {from: 9 kg, to: 12 kg}", "lining_thickness.from: expected a quantity in m"),
     ("structure.pad.lining_thickness: {from: 9, to: 12}", "9.0 without a unit"),
     ("structure.pad.linning_thickness: {from: 9 mm, to: 12 mm}", "did you mean 'structure.pad.lining_thickness'"),
-    ("structure.pad.added_mass: {from: 0 g, to: 50 g}", "expected a setting that is a number"),
+    ("structure.caliper.added_mass: {from: 0 g, to: 50 g}", "expected a setting that is a number"),
     ("pads.mass: {from: 9 mm, to: 12 mm}", "expected 'stage.key' with a stage of the chain"),
     ("probability.draws: {values: [5, 10]}", "which modes depend on"),
     ("structure.pressures: {values: [1 MPa, 2 MPa]}", "operating points are compared one by one"),
