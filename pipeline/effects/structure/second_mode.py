@@ -46,5 +46,5 @@ EFFECT = Effect(
     name="second_mode", summary="a mode of a body that the model takes as rigid", location="point", stage="structure",
     parameters=parameters, apply=apply, elaborate=True,
     source="D. J. Ewins, Modal Testing, 2nd ed. (2000): the sum of modes of a free body",
-    valid="Valid while one further mode of the body matters, above its mode on the joints and below the highest mode that "
-          "the step resolves, damped to 30 % of critical at most.")
+    valid="Valid while one further mode of the body matters, above its mode on the joints and below the highest mode "
+          "that the step resolves, damped to 30 % of critical at most.")

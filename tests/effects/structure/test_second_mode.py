@@ -33,4 +33,4 @@ def test_a_damper_and_a_mode_below_the_joints_are_no_mode_of_a_body():
     """What is damped beyond that acts as a damper to the ground: another effect."""
     found = {p.name: p for p in named("second_mode").parameters(SimpleNamespace(period=0.5))}
     assert 0.2 < found["damping_ratio"].within[1] < 0.5
-    assert found["frequency"].within[0] == pytest.approx(1 / np.pi) < found["frequency"].nominal
+    assert found["frequency"].within[0] == pytest.approx(1 / np.pi) and found["frequency"].nominal > 1 / np.pi
