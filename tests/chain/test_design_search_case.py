@@ -45,7 +45,6 @@ def secant(product):
 
 @pytest.mark.slow
 @pytest.mark.study
-@pytest.mark.study
 def test_a_planted_remedy_is_found_and_compared(tmp_path):
     brakechain("new", tmp_path / "my_brake", "--quick")
     (tmp_path / "soft.yaml").write_text(SEARCHED)
