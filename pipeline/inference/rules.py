@@ -73,7 +73,7 @@ class DecisionRules:
     outweighed: float = threshold(1.0, "posterior of the candidates that break no rule over that of those that do")
     p_value: float = threshold(0.01, "family-wise p-value, over the whole catalogue")
     evidence_gain: float = threshold(5.0, "log evidence over the recalibrated nominal model", "nat")
-    evidence_unconfirmed: float = threshold(20.0, "the same where held-out runs cannot tell, so that none confirms it",
+    evidence_unconfirmed: float = threshold(10.0, "the same where held-out runs cannot tell, so that none confirms it",
                                             "nat")
     nominal_p: float = threshold(1e-3, "p-value, under their priors, of all nominal values together that a candidate"
                                        " asks for")

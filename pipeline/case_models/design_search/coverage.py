@@ -76,8 +76,8 @@ def _elsewhere(space, course, best):
     away = [course.known[p].objective for p in there if best is not None and _distance(space, p, best) > _ALIKE]
     if not away:
         return []
-    return [f"{len(away)} of {len(there)} starts ended in other designs, with objectives from {min(away):.4g} to"
-            f" {max(away):.4g} 1/s."]
+    ends = " to ".join(dict.fromkeys(f"{end:.4g}" for end in (min(away), max(away))))
+    return [f"{len(away)} of {len(there)} starts ended in other designs, with objectives of {ends} 1/s."]
 
 
 def _distance(space, first, second):
