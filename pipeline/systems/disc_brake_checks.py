@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.systems.disc_brake_pad import refuse_unfit_shape
+from pipeline.systems.disc_brake_pad import refuse_beside_file, refuse_unfit_shape
 
 #: heights of a disc closer than so many m are one
 SAME_HEIGHT = 1e-6
@@ -21,6 +21,8 @@ def refuse_unfit(parameters):
     """ConfigError for dimensions of disc, pads and caliper that do not fit; those of pads and caliper from mesh files
     are not asked."""
     refuse_unfit_shape(parameters.pad)
+    if parameters.disc.mesh_file:
+        refuse_beside_file(parameters.disc, "disc", ("vane_count", "hat_height"))
     d, p, c = parameters.disc, parameters.pad, parameters.caliper
     rules = (
         (d.bore_radius < d.ring_inner_radius < d.ring_outer_radius, "disc", "bore < ring inner < ring outer radius",
@@ -47,10 +49,8 @@ def refuse_unfit(parameters):
 
 def _shape_of_disc(d):
     """[(whether it holds, where, expected, found)] of the vanes and the hat of a disc."""
-    if d.mesh_file:
-        given = {"vane_count": d.vane_count, "hat_height": d.hat_height}
-        return [(not value, f"disc.{name}", "none beside mesh_file, whose disc has the shape of its mesh", f"{value:g}")
-                for name, value in given.items()]
+    if d.mesh_file or not (d.vane_count or d.hat_height):
+        return []
     reach, half, cheek = clamped_radius(d), d.ring_thickness / 2, d.cheek_thickness
     rules = [(not d.hat_height or d.ring_inner_radius - d.hat_thickness > reach, "disc.hat_thickness",
               f"less than {d.ring_inner_radius - reach:.3g} m, from the clamped radius to the ring",
@@ -59,13 +59,14 @@ def _shape_of_disc(d):
         rules += [(cheek is not None and cheek < half, "disc.cheek_thickness", f"less than half the ring, {half:g} m",
                    "none" if cheek is None else f"{cheek:g} m"),
                   (d.vane_count >= 3, "disc.vane_count", "3 vanes or more", f"{d.vane_count}")]
-    if cheek is None or not d.vane_count:
-        return rules
-    web = np.array([0.0, d.web_thickness]) + d.hat_height - half
-    apart = np.diff(np.sort([cheek - half, half - cheek, *web]))
+    web, cheeks = np.array([0.0, d.web_thickness]) + d.hat_height - half, []
+    if cheek is not None and d.vane_count:
+        cheeks = [cheek - half, half - cheek]
+        rules.append((not d.hat_height or web[1] > half - cheek, "disc.hat_height", "a web that ends above the foot of"
+                      f" the outer cheek, which bears the hat: more than {2 * half - cheek - d.web_thickness:.3g} m",
+                      f"{d.hat_height:g} m"))
+    apart = np.diff(np.sort([-half, half, *web, *cheeks]))
     thin = apart[(apart > SAME_HEIGHT) & (apart < _THINNEST * d.ring_thickness)]
-    return [*rules, (not d.hat_height or web[1] > half - cheek, "disc.hat_height", "a web that ends above the foot of"
-                     f" the outer cheek, which bears the hat: more than {2 * half - cheek - d.web_thickness:.3g} m",
-                     f"{d.hat_height:g} m"),
-            (not len(thin), "disc.cheek_thickness", "faces of web and cheeks that coincide or are at least"
-             f" {_THINNEST * d.ring_thickness:.2g} m apart", f"{thin.min(initial=np.inf):.2g} m")]
+    return [*rules, (not len(thin), "disc.cheek_thickness" if d.vane_count else "disc.hat_height",
+                     "faces of web, ring and cheeks that coincide or are at least"
+                     f" {_THINNEST * d.ring_thickness:.2g} m apart", f"{thin.min(initial=np.inf):.2g} m")]

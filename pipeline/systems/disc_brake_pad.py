@@ -38,16 +38,17 @@ def pad(parameters, side):
     depth = face + height
     mesh = revolve(radius, angle, depth if side > 0 else -depth[::-1], mask)
     layer = mesh.cell[:, 2] if side > 0 else len(height) - 2 - mesh.cell[:, 2]
-    plate_layer = len(height) - (4 if p.shim_rubber_thickness else 2)
-    steel = layer == plate_layer
+    shim = SHIM if p.shim_rubber_thickness else ()
+    plate = len(height) - 2 - len(shim)
+    steel = layer == plate
     mesh = replace(mesh, node=_chamfered(p, mesh.node, side * mesh.node[:, 2] - face)) if p.chamfer_length else mesh
     weights = _weights(p, angle)
     material = steel.astype(int)
     for row, (cell, _) in enumerate(weights, 2):
         material[steel & (mesh.cell[:, 1] == cell % (len(angle) - 1))] = row
     names, densities, elasticity, loss = _materials(p, [density for _, density in weights])
-    for above, name in enumerate(SHIM if p.shim_rubber_thickness else (), 1):
-        material[layer == plate_layer + above] = names.index(name)
+    for above, name in enumerate(shim, plate + 1):
+        material[layer == above] = names.index(name)
     return Solid(mesh, material, names, densities, elasticity, p.damping_ratio, np.empty(0, int), loss)
 
 
@@ -131,7 +132,7 @@ def refuse_unfit_shape(pad):
     """ConfigError for chamfers and slots that do not fit a pad, and for those of a pad from a mesh file."""
     p, where = pad, "structure.pad"
     if p.mesh_file:
-        _refuse_beside_file(p)
+        refuse_beside_file(p, "pad", ("chamfer_length", "slot_width", "added_mass", "shim_rubber_thickness"))
         return
     for name, length in (("chamfer", p.chamfer_length), ("slot", p.slot_width)):
         depth = getattr(p, f"{name}_depth")
@@ -151,8 +152,9 @@ def refuse_unfit_shape(pad):
                           f"{taken:.3g} m", "leave more of its face")
 
 
-def _refuse_beside_file(p):
-    for name in ("chamfer_length", "slot_width", "added_mass", "shim_rubber_thickness"):
-        if getattr(p, name):
-            raise ConfigError(f"structure.pad.{name}", "none beside mesh_file, whose pad has the shape of its mesh",
-                              f"{getattr(p, name):g}", "mesh it, or leave the file out")
+def refuse_beside_file(section, part, shapes):
+    """ConfigError where the section of a ``part`` from a mesh file states one of the ``shapes`` (names of settings)."""
+    for name in shapes:
+        if getattr(section, name):
+            raise ConfigError(f"structure.{part}.{name}", f"none beside mesh_file, whose {part} has the shape of its"
+                              " mesh", f"{getattr(section, name):g}", "mesh it, or leave the file out")

@@ -91,7 +91,14 @@ def test_a_brake_with_a_ventilated_disc_is_built():
     ({**VENTED, "vane_count": 2}, "3 vanes or more"),
     ({**HAT, "hat_thickness": "20 mm"}, "disc.hat_thickness: expected less than"),
     ({**VENTED, **HAT, "hat_height": "2 mm"}, "disc.hat_height: expected a web that ends above"),
-    ({**VENTED, "web_thickness": "6.9 mm"}, "faces of web and cheeks that coincide")])
+    ({**VENTED, "web_thickness": "6.9 mm"}, "disc.cheek_thickness: expected faces of web, ring and cheeks"),
+    ({**HAT, "hat_height": "2.6 mm"}, "disc.hat_height: expected faces of web, ring and cheeks that coincide")])
 def test_shapes_that_do_not_fit_are_refused(given, message):
     with pytest.raises(ConfigError, match=message):
         build(Settings(**{**COARSE, "disc": Disc(**given)}))
+
+
+def test_a_disc_from_a_file_has_the_shape_of_its_mesh(tmp_path):
+    (tmp_path / "disc.inp").write_text("*NODE\n")
+    with pytest.raises(ConfigError, match="structure.disc.hat_height: expected none beside mesh_file, whose disc"):
+        build(Settings(**{**COARSE, "disc": Disc(mesh_file=str(tmp_path / "disc.inp"), **HAT)}))

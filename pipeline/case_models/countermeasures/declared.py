@@ -102,21 +102,28 @@ def _of_modes(sections):
 
 def costs(variants):
     """[(column, unit, {name of a variant: number})] in the order of the YAML; ConfigError for what is no number."""
-    columns = {}
-    for name, variant in variants.items():
-        for column, given in variant.cost.items():
-            where = f"countermeasures.variants.{name}.cost.{column}"
-            number, unit = number_with_unit(given, where)
-            known, numbers = columns.setdefault(column, (unit, {}))
-            if unit != known:
-                raise ConfigError(where, f"{known or 'no unit'}, as in the variants before", repr(unit or "none"),
-                                  "state each cost in one unit")
-            numbers[name] = number
+    stated = {name: variant.cost for name, variant in variants.items()}
+    columns = cost_columns(stated, "countermeasures.variants", "variants")
     return [(column, unit, numbers) for column, (unit, numbers) in columns.items()]
 
 
-def number_with_unit(given, where):
-    """(number, unit or '') of a cost as it is written; ConfigError for what is no number."""
+def cost_columns(stated, where, owners):
+    """{column: (unit, {name: number})} of costs ``stated`` {name: {column: as written}} by ``owners`` at ``where``;
+    ConfigError for what is no number, or in another unit than before."""
+    columns = {}
+    for name, costs_of in stated.items():
+        for column, given in costs_of.items():
+            here = f"{where}.{name}.cost.{column}"
+            number, unit = _number(given, here)
+            known, numbers = columns.setdefault(column, (unit, {}))
+            if unit != known:
+                raise ConfigError(here, f"{known or 'no unit'}, as in the {owners} before", repr(unit or "none"),
+                                  "state each cost in one unit")
+            numbers[name] = number
+    return columns
+
+
+def _number(given, where):
     read = _COST.fullmatch(given) if isinstance(given, str) else None
     if isinstance(given, str) and read is None:
         raise ConfigError(where, "a number, with or without a unit, such as 0.1 kg", repr(given)[:100])

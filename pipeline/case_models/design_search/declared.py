@@ -9,7 +9,7 @@
 
 from typing import Any
 
-from pipeline.case_models.countermeasures.declared import OF_MODES, check_key, number_with_unit
+from pipeline.case_models.countermeasures.declared import OF_MODES, check_key, cost_columns
 from pipeline.contract import ConfigError, option, section
 from pipeline.contract.settings import leaves
 from pipeline.contract.units import to_si
@@ -90,17 +90,7 @@ def _check_list(where, given):
 
 def columns(settings):
     """{column: (unit, {name of a value: cost of its whole range})}; ConfigError for what is no number."""
-    found = {}
-    for name, given in settings.space.items():
-        for column, written in given.cost.items():
-            where = f"design_search.space.{name}.cost.{column}"
-            number, unit = number_with_unit(written, where)
-            known, of = found.setdefault(column, (unit, {}))
-            if unit != known:
-                raise ConfigError(where, f"{known or 'no unit'}, as in the values before", repr(unit or "none"),
-                                  "state each cost in one unit")
-            of[name] = number
-    return found
+    return cost_columns({name: given.cost for name, given in settings.space.items()}, "design_search.space", "values")
 
 
 def _check_costs(settings):

@@ -70,7 +70,11 @@ def spectrum(fit, channel=""):
 def standing_out(fit, count=_TRIED):
     """Frequencies (up to ``count``,) in Hz of the largest peaks in the spectrum of what a Fit leaves, over all runs,
     between its ordinates by a parabola."""
-    found = spectrum(fit)
+    return _peaks(spectrum(fit), count)
+
+
+def _peaks(found, count):
+    """The same of a Spectrum, or of None."""
     if found is None:
         return np.empty(0)
     grid, padded = found.frequency, np.concatenate(([0.0], found.power, [0.0]))
@@ -85,8 +89,9 @@ def modulations(fit):
     peaks, once each."""
     whole = replace(fit, residuals=tuple(noise.whiten(np.where(run.valid, run.samples, 0.0))
                                          for run, noise in zip(fit.runs, fit.noises, strict=True)))
-    left, moved, found = standing_out(fit), standing_out(whole, _BESIDE), spectrum(fit)
-    if found is None or not (len(left) and len(moved)):
+    found = spectrum(fit)
+    left, moved = _peaks(found, _TRIED), standing_out(whole, _BESIDE)
+    if not (len(left) and len(moved)):
         return np.empty(0)
     width, longest = FINER * (found.frequency[1] - found.frequency[0]), found.frequency[-1]
     apart = np.concatenate([abs(left[:, None] - moved).ravel(), (left[:, None] + moved).ravel()])

@@ -7,7 +7,15 @@ K_ab^ij = c_ikjl P_ab^kl.
 
 import numpy as np
 
-from pipeline.physics.fem.node_graph import block_csr, diagonal_csr, node_graph, place_of, rows_of
+from pipeline.physics.fem.node_graph import (
+    add_block,
+    add_value,
+    block_csr,
+    diagonal_csr,
+    node_graph,
+    place_of,
+    rows_of,
+)
 from pipeline.physics.numerics.compiled import njit
 
 
@@ -110,10 +118,6 @@ def _add_element(vertex, pairs, masses, elasticity, indptr, indices, sums):
 
 @njit
 def _add_pair(row, column, block, mass, indptr, indices, stiffness, masses):
-    degree = indptr[row + 1] - indptr[row]
     place = place_of(indptr, indices, row, column)
-    at = 9 * indptr[row] + 3 * place
-    for i in range(3):
-        masses[3 * indptr[row] + i * degree + place] += mass
-        for j in range(3):
-            stiffness[at + 3 * i * degree + j] += block[i, j]
+    add_value(mass, row, place, indptr, masses)
+    add_block(block, row, place, indptr, stiffness)

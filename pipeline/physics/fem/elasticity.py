@@ -145,9 +145,9 @@ def geometric_stiffness(node, element, kind, material, elasticity, displacement)
     return summed_scalars(_element_matrices(node, element, kind, matrices)[0], element, len(node))
 
 
-def _element_matrices(node, element, kind, matrices, order=None):
+def _element_matrices(node, element, kind, matrices):
     """Run ``matrices(gradient, shape, volume, rows)`` over batches of elements; join the results."""
-    point, weight = quadrature(kind, order)
+    point, weight = quadrature(kind)
     shape, reference_gradient = shape_functions(kind, point)
     results = []
     for start in range(0, len(element), _BATCH):

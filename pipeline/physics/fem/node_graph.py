@@ -20,21 +20,21 @@ def node_graph(element, nodes):
 
 def block_csr(graph, data):
     """CSR (3n, 3n) of ``data``: row by row the blocks of three columns of every neighbour."""
-    return _csr(graph, data, 3, _block_columns)
+    return _csr(graph, data, 3)
 
 
 def diagonal_csr(graph, data):
     """CSR (3n, 3n) of ``data``: row by row one column of every neighbour, that of its own axis."""
-    return _csr(graph, data, 1, _axis_columns)
+    return _csr(graph, data, 1)
 
 
-def _csr(graph, data, width, fill):
-    """CSR of ``data`` whose rows hold ``width`` columns a neighbour, which ``fill`` names."""
+def _csr(graph, data, width):
+    """CSR of ``data`` whose rows hold ``width`` columns a neighbour."""
     degree = np.diff(graph[0])
     kind = np.int32 if len(data) < np.iinfo(np.int32).max else np.int64
     columns, rows = np.empty(len(data), kind), np.zeros(3 * len(degree) + 1, kind)
     np.cumsum(np.repeat(width * degree, 3), out=rows[1:])
-    fill(*graph, columns)
+    _fill_columns(*graph, width, columns)
     return scipy.sparse.csr_matrix((data, columns, rows), (3 * len(degree),) * 2)
 
 
@@ -94,24 +94,15 @@ def _graph(element, nodes):
 
 
 @njit
-def _block_columns(indptr, indices, columns):
-    at = 0
-    for a in range(len(indptr) - 1):
-        for _ in range(3):
-            for b in indices[indptr[a]:indptr[a + 1]]:
-                for axis in range(3):
-                    columns[at] = 3 * b + axis
-                    at += 1
-
-
-@njit
-def _axis_columns(indptr, indices, columns):
+def _fill_columns(indptr, indices, width, columns):
     at = 0
     for a in range(len(indptr) - 1):
         for axis in range(3):
+            first = axis if width == 1 else 0
             for b in indices[indptr[a]:indptr[a + 1]]:
-                columns[at] = 3 * b + axis
-                at += 1
+                for k in range(width):
+                    columns[at] = 3 * b + first + k
+                    at += 1
 
 
 @njit
@@ -128,29 +119,36 @@ def place_of(indptr, indices, row, column):
 
 
 @njit
+def add_value(value, row, place, indptr, data):
+    """Add a value for each axis to ``data`` of a ``diagonal_csr``, at the neighbour of a row at this ``place``."""
+    degree = indptr[row + 1] - indptr[row]
+    for axis in range(3):
+        data[3 * indptr[row] + axis * degree + place] += value
+
+
+@njit
+def add_block(block, row, place, indptr, data):
+    """Add a ``block`` (3, 3) to ``data`` of a ``block_csr``, at the neighbour of a row at this ``place``."""
+    first, width = 9 * indptr[row] + 3 * place, 3 * (indptr[row + 1] - indptr[row])
+    for i in range(3):
+        for j in range(3):
+            data[first + i * width + j] += block[i, j]
+
+
+@njit
 def add_scalars(matrix, element, indptr, indices, data):
     """Add node matrices (e, v, v) to ``data`` of a ``diagonal_csr``."""
-    vertices = element.shape[1]
     for e in range(element.shape[0]):
-        for a in range(vertices):
-            row = element[e, a]
-            degree = indptr[row + 1] - indptr[row]
-            for b in range(vertices):
-                at = 3 * indptr[row] + place_of(indptr, indices, row, element[e, b])
-                for axis in range(3):
-                    data[at + axis * degree] += matrix[e, a, b]
+        for a, row in enumerate(element[e]):
+            for b, column in enumerate(element[e]):
+                add_value(matrix[e, a, b], row, place_of(indptr, indices, row, column), indptr, data)
 
 
 @njit
 def add_blocks(matrix, element, indptr, indices, data):
     """Add matrices (e, 3v, 3v) to ``data`` of a ``block_csr``."""
-    vertices = element.shape[1]
     for e in range(element.shape[0]):
-        for a in range(vertices):
-            row = element[e, a]
-            width = 3 * (indptr[row + 1] - indptr[row])
-            for b in range(vertices):
-                at = 9 * indptr[row] + 3 * place_of(indptr, indices, row, element[e, b])
-                for i in range(3):
-                    for j in range(3):
-                        data[at + i * width + j] += matrix[e, 3 * a + i, 3 * b + j]
+        for a, row in enumerate(element[e]):
+            for b, column in enumerate(element[e]):
+                block = matrix[e, 3 * a:3 * a + 3, 3 * b:3 * b + 3]
+                add_block(block, row, place_of(indptr, indices, row, column), indptr, data)

@@ -84,14 +84,14 @@ def _below(stiffness, mass, solver, below):
         raise ConvergenceError("lowest_modes", "a factor without row exchanges to count modes", "exchanges",
                                "change the frequency limit a little, or use the solver pypardiso")
     size = stiffness.shape[0]
+    if not factor.negative:
+        return np.zeros(0), np.zeros((size, 0))
     if _is_dense(size, factor.negative):
         square, shape = _dense(stiffness, mass, factor.negative)
-    elif factor.negative:
+    else:
         shifted, shape = _lanczos(factor, mass, factor.negative, -1)
         _refuse_inaccurate(factor, mass, shifted, shape)
         square = np.einsum("nm,nm->m", shape, stiffness @ shape)    # far from the shift better than by its eigenvalue
-    else:
-        square, shape = np.zeros(0), np.zeros((size, 0))
     if not (square < limit).all():
         raise ConvergenceError("lowest_modes", f"{factor.negative} modes below {below:g} Hz (inertia)",
                                str(int((square < limit).sum())), "change the frequency limit a little")
