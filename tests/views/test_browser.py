@@ -31,6 +31,8 @@ broken: images.filter(i => !i.naturalWidth).length, text: inside.querySelector("
 #: what a reader does with a page: moves the pointer over a curve and over a large map, enlarges one, turns a mode
 READER = """<!DOCTYPE html><title>reader</title><link rel="icon" href="data:,"><body style="margin:0">
 <iframe style="border:0" width="1280" height="60000" srcdoc="{page}"></iframe><script>
+const tell = made => {{ document.title = JSON.stringify(made); }};
+addEventListener("unhandledrejection", event => tell({{failed: String(event.reason)}}));
 addEventListener("load", async () => {{
 const page = document.querySelector("iframe").contentDocument, view = page.defaultView;
 const wait = () => new Promise(done => setTimeout(done, 400)), tip = page.querySelector(".tip"), made = {{}};
@@ -59,7 +61,7 @@ if (figure) {{ figure.querySelector(".turn").click(); await wait(); await wait()
   const later = canvas.toDataURL();
   made.turned = first !== later && Math.min(first.length, later.length) > 10000;
   made.controls = figure.querySelectorAll("input").length; }}
-document.title = JSON.stringify(made); }})
+tell(made); }})
 </script>"""
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on this machine (Debian package 'chromium')")
@@ -122,8 +124,9 @@ def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width
 
 def test_a_reader_sees_values_zooms_and_turns_a_mode(html, tmp_path):
     """Where this machine draws pictures in three dimensions; values under the pointer anywhere."""
-    document, console, requests = opened(tmp_path, READER.format(page=escape(html)), "--virtual-time-budget=20000")
+    document, console, requests = opened(tmp_path, READER.format(page=escape(html)), "--virtual-time-budget=200000")
     made = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
+    assert "failed" not in made, made
     assert "coefficient of friction: " in made["curve"] and "kHz: growth rate: " in made["curve"]
     assert "height: " in made["map"] and " µm" in made["map"] and made["hidden"]
     assert "scale(1." in made["zoom"] and made["closed"]
