@@ -63,6 +63,7 @@ def test_what_has_no_kin_is_taken_for_nothing(hidden):
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_of_a_pair_each_leaves_what_the_other_alone_cannot_explain():
     """A gap is another cubic spring, nearly."""
     pair = made(12, ("cubic_stiffness", "backlash"), (0, 0), level=0.05, masses=1, change=0.05)
