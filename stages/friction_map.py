@@ -1,9 +1,11 @@
 """Stage friction_map: mu(pressure, speed, distance) of the interface as a table for other programs."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pipeline.case_models.rough.pair import Settings as MicroSettings
-from pipeline.contract import ConfigError, Context, ConvergenceError, Quantities, Section, option, stage
+from pipeline.contract import ConfigError, Context, ConvergenceError, Quantities, Quantity, Section, option, stage
 from pipeline.contract.settings import restored
 from pipeline.physics.friction import table_formats
 from pipeline.physics.friction.friction_table import refine
@@ -20,6 +22,9 @@ class Settings(Section):
     pressure_subdivisions: int = option(10, "parts of each interval between computed pressures", ge=1)
     speed_subdivisions: int = option(5, "parts of each interval between computed speeds", ge=1)
     distance_subdivisions: int = option(5, "parts of each interval between recorded distances", ge=1)
+    bulk_temperature: Quantity("K", gt=-250) = option(
+        "0 K", "temperature of both bodies above that of reference: that of the map, by micro_friction's softening, and"
+        " of the linings of the brake, by structure.pad.lining_softening")
     bulk_temperatures: Quantities("K", ge=0) | None = option(
         None, "temperatures of both bodies above that of reference at which the map is told too, by micro_friction's"
         " softening; none = not")
@@ -55,8 +60,10 @@ def friction_map(micro_friction: MicroFriction, settings: Settings, context: Con
     The computed points were interpolated by monotone cubics (PCHIP along pressure, speed and distance, each interval
     divided into {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts), over pressure by a
     fitted polynomial in its logarithm where an order is given (order: {order}). The map is read by multilinear
-    interpolation and is constant outside its range.
+    interpolation and is constant outside its range. Friction is that of bodies {bulk_temperature} above the temperature
+    of reference, by the softening of the shear limit.
     """
+    micro_friction = _at_temperature(micro_friction, settings.bulk_temperature)
     parts = (settings.pressure_subdivisions, settings.speed_subdivisions, settings.distance_subdivisions)
     axes = (micro_friction.pressure, micro_friction.speed, micro_friction.distance)
     fine, friction = refine(axes, micro_friction.friction, parts)
@@ -68,24 +75,45 @@ def friction_map(micro_friction: MicroFriction, settings: Settings, context: Con
     return FrictionMap(pressure=fine[0], speed=fine[1], distance=fine[2], friction=friction, friction_std=scatter,
                        normal_stiffness=stiffness, computed_pressure=micro_friction.pressure,
                        computed_speed=micro_friction.speed, **_slope_errors(micro_friction, fine, scatter, fit, slope),
-                       over_temperature=_warmed(micro_friction, settings.bulk_temperatures, fine, friction))
+                       over_temperature=_warmed(micro_friction, settings, fine, friction),
+                       bulk_temperature=settings.bulk_temperature)
 
 
-def _warmed(computed, temperatures, fine, friction):
-    """FrictionOverTemperature of the map: friction goes with the shear limit, which bulk and flash heat soften."""
-    if temperatures is None:
-        return {}
+def _warmth(computed, rise, where):
+    """Friction over that at reference, (P, V, S) at the computed points, of bodies ``rise`` K warmer.
+
+    Friction goes with the shear limit, which bulk and flash heat soften, and flash heat with friction.
+    """
     softening = restored(MicroSettings, computed.settings.item()).softening
-    if softening * temperatures[-1] >= 1.0:
-        raise ConfigError("friction_map.bulk_temperatures", f"less than {1 / softening:.4g} K, where nothing is left of"
-                          " the shear limit", f"{temperatures[-1]:g} K", "lower micro_friction.softening")
+    if softening * rise >= 1.0:
+        raise ConfigError(f"friction_map.{where}", f"less than {1 / softening:.4g} K, where nothing is left of the"
+                          " shear limit", f"{rise:g} K", "lower micro_friction.softening")
     cold = 1.0 - softening * computed.flash_temperature                     # limit over that without any flash
     heating = softening * computed.flash_temperature / cold
-    points = np.stack(np.meshgrid(*(np.clip(axis, own[0], own[-1]) for axis, own in zip(
-        fine, (computed.pressure, computed.speed, computed.distance), strict=True)), indexing="ij"), axis=-1)
-    factors = [_at((computed.pressure, computed.speed, computed.distance), (1 - softening * rise) / (
-        1 + heating * (1 - softening * rise)) / cold, points) for rise in temperatures]
-    return {"bodies": FrictionOverTemperature(temperature=temperatures, friction=[friction * f for f in factors])}
+    return (1 - softening * rise) / (1 + heating * (1 - softening * rise)) / cold
+
+
+def _at_temperature(computed, rise):
+    """MicroFriction with the friction and the errors of bodies ``rise`` K warmer."""
+    if not rise:
+        return computed
+    factor = _warmth(computed, rise, "bulk_temperature")
+    return replace(computed, friction=computed.friction * factor, friction_std=computed.friction_std * factor,
+                   pair_friction=computed.pair_friction * factor)
+
+
+def _warmed(computed, settings, fine, friction):
+    """FrictionOverTemperature of the map, whose own temperature is the one stated."""
+    if settings.bulk_temperatures is None:
+        return {}
+    axes = computed.pressure, computed.speed, computed.distance
+    points = np.stack(np.meshgrid(*(np.clip(axis, own[0], own[-1]) for axis, own in zip(fine, axes, strict=True)),
+                                  indexing="ij"), axis=-1)
+    own = _warmth(computed, settings.bulk_temperature, "bulk_temperature")
+    factors = [_at(axes, _warmth(computed, rise, "bulk_temperatures") / own, points)
+               for rise in settings.bulk_temperatures]
+    return {"bodies": FrictionOverTemperature(temperature=settings.bulk_temperatures,
+                                              friction=[friction * f for f in factors])}
 
 
 def _at(axes, values, points):

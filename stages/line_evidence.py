@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models.scatter import DEFAULT, Source, family, friction_errors, stability_settings
+from pipeline.case_models.scatter import DEFAULT, Source, family, fitting, friction_errors, stability_settings
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.diagnosis.published.completed_case import chosen, companions
 from pipeline.diagnosis.published.line_hypotheses import (
@@ -110,6 +110,7 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     evidence of a hypothesis is the mean probability density of the heard lines and of no others. Its standard error is
     by bootstrap over the draws; lists simulated by one half of the draws and weighed by the other calibrate it.
     """
+    settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
     points = stability_settings(modes)
     if settings.high > points.frequency_max:
         raise ConfigError("line_evidence.high", f"at most {points.frequency_max:g} Hz, where the complex modes end",

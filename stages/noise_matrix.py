@@ -17,6 +17,7 @@ from pipeline.case_models.scatter import (
     KINDS,
     Source,
     check_sources,
+    fitting,
     friction_errors,
     law_in_words,
     stability_settings,
@@ -118,6 +119,7 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
     schedule within {within}, and the number of noisy ones was tested against the beta-binomial distribution of another
     brake of this scatter, two-sided, with Holm's correction over all conditions and bands (level {level}).
     """
+    settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
     points = stability_settings(modes)
     acts = friction_map is not None and "bodies" in friction_map.over_temperature
     plan = schedule(settings.schedule, settings.modules, acts)

@@ -17,6 +17,7 @@ from pipeline.case_models.scatter import (
     draw_values,
     factors_of,
     family,
+    fitting,
     friction_errors,
     law_in_words,
     stability_settings,
@@ -79,6 +80,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     sensitivities are first-order Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
+    settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
     points = stability_settings(modes)
     points.speeds = selected_speeds(settings.speeds, points.speeds)
     errors = friction_errors(friction_map, points.sliding_distance)

@@ -15,7 +15,7 @@ from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
-from pipeline.systems.disc_brake import build
+from pipeline.systems.disc_brake import build, moduli_left, softened
 from pipeline.systems.disc_brake_checks import refuse_unfit
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 from pipeline.systems.mesh_files.bodies import from_files, given, notes
@@ -66,8 +66,10 @@ class Settings(Section):
 
 def _check(sections):
     """Refuse dimensions that do not fit, and a mesh file that the brake cannot be built with, before all else."""
-    settings = sections["structure"]
+    settings, warm = sections["structure"], sections.get("friction_map")
     refuse_unfit(settings)
+    if warm is not None:
+        moduli_left(settings.pad.lining_softening, warm.bulk_temperature)
     if settings.disc.mount_group or from_files(settings):
         build(settings)
 
@@ -78,13 +80,17 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
 
     Method:
     Disc, pads, caliper, and bracket and piston where declared, were meshed with quadratic hexahedra (95 % of the
-    stiffness by 2 x 2 x 2 integration), unless they have the elements of a mesh file, whose unlike meshes are tied by
+    stiffness by 2 x 2 x 2 integration; linings at friction_map.bulk_temperature), unless they have the elements of a mesh file, whose unlike meshes are tied by
     mortar springs; joints between bodies are springs and dampers. The disc is clamped where the bolts press it onto a
     rigid hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
     preload is static and frictionless. Real modes were computed below {frequency_max}.
     """
     brake = build(settings)
     said = (*notes(settings), *unread_springs(settings))
+    if temperature := float(friction_map.bulk_temperature):
+        left = moduli_left(settings.pad.lining_softening, temperature)
+        context.log(f"linings {temperature:g} K above the temperature of reference have {left:.3g} of their moduli")
+        brake = softened(brake, left)
     for note in said:
         context.log(note)
     free, *modes = _all_modes(brake, settings, context)

@@ -57,7 +57,7 @@ class FrictionOverTemperature:
     friction: Array = quantity("1", "temperature pressure speed distance", "coefficient of friction at the points of the map")
 
 
-@product(version=4)
+@product(version=5)
 class FrictionMap:
     """mu(pressure, speed, distance) of the interface and its normal stiffness."""
 
@@ -73,6 +73,7 @@ class FrictionMap:
     normal_stiffness: Array = quantity("Pa/m", "pressure distance", "interface stiffness, mean over speed")
     computed_pressure: Array = quantity("Pa", "computed_pressure", "pressures at which micro_friction ran")
     computed_speed: Array = quantity("m/s", "computed_speed", "speeds at which micro_friction ran")
+    bulk_temperature: Array = quantity("K", "", "temperature of both bodies above that of reference")
     over_temperature: dict[str, FrictionOverTemperature] = parts("'bodies' where temperatures were asked for", empty=True)
 
 

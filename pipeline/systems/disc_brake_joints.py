@@ -1,8 +1,9 @@
 """Joints of the disc brake, and the line pressure, as displacement rows.
 
-What is not meshed is a spring with a damper between two surface means: fingers and piston on the backplates, pads in
-their abutments, guide pins, seal, and the bolts of the bracket. Without a bracket, abutments and guide pins end on the
-ground; without a piston, its seal acts between housing and backplate. In a mesh from a file, a group with the name of a
+What is not meshed is a spring with a damper between two surface means: fingers and pistons on the backplates, pads in
+their abutments, guide pins, seals, and the bolts of the bracket. A fixed caliper has pistons on both backplates, and is
+bolted on where guide pins would be. Without a bracket, abutments, guide pins and these bolts end on the ground; without
+pistons, their seals act between housing and backplates. In a mesh from a file, a group with the name of a
 joint says where it acts: FINGER_LEADING_INNER, or FINGER_LEADING for both its spots.
 """
 
@@ -13,8 +14,8 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import along, face_points, surface_rows
-from pipeline.physics.fem.mesh import boundary_faces
-from pipeline.systems.disc_brake_piston import bore
+from pipeline.physics.fem.mesh import boundary_faces, face_normals
+from pipeline.systems.disc_brake_piston import bore, places
 from pipeline.systems.disc_brake_rows import (
     CALIPER,
     INNER,
@@ -66,7 +67,7 @@ def _supports(meshes, parameters):
     """Springs of guide pins, and of the ends of both pads in their abutments, end by end."""
     j, springs = parameters.joints, []
     for end, sign in (("leading", -1), ("trailing", 1)):
-        if "guide_pin" not in j.left_out:
+        if ("mount" if parameters.caliper.fixed else "guide_pin") not in j.left_out:
             springs += _guide_pin(meshes, parameters, end, sign)
         for name, pad in (("outer", OUTER), ("inner", INNER)) if "abutment" not in j.left_out else ():
             spot, guide = _backplate_end(meshes, parameters, pad, sign)
@@ -78,17 +79,24 @@ def _supports(meshes, parameters):
 
 def _fingers(meshes, parameters):
     j = parameters.joints
-    return _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
+    return [] if parameters.caliper.fixed else _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
                     list(_clamping_spots(meshes, parameters, "finger", OUTER)))
 
 
-def _on_inner_pad(meshes, parameters):
-    """Springs of the piston, or of the housing without a piston body, on the inner backplate."""
+def _on_pads(meshes, parameters):
+    """Springs of the pistons, or of the housing without a piston body, on the backplates."""
     j = parameters.joints
-    if parameters.piston.kind == "body":
-        return _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters))
-    return _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
-                    list(_clamping_spots(meshes, parameters, "piston", INNER)))
+    if parameters.piston.kind != "body":
+        return [spring for pad in _pressed_pads(parameters) for spring in
+                _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
+                         list(_clamping_spots(meshes, parameters, "piston", pad)))]
+    return [spring for place in places(parameters) for spring in
+            _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters, place))]
+
+
+def _pressed_pads(parameters):
+    """Pads that pistons press."""
+    return (INNER, OUTER) if parameters.caliper.fixed else (INNER,)
 
 
 def _kind(name):
@@ -97,16 +105,20 @@ def _kind(name):
 
 
 def piston_rows(meshes, parameters):
-    """One row: mean distance of piston and cylinder floor; a unit force pushes the inner pad onto the disc.
+    """One row: mean distance of pistons and cylinder floors; a unit force pushes the inner pad onto the disc.
 
-    Without a piston body it is that of inner backplate and cylinder.
+    Without a piston body it is that of inner backplate and cylinder. Of a fixed caliper it is that on the inner side
+    plus that on the outer one: the force pushes both pads.
     """
-    if parameters.piston.kind == "body":
-        relative = [_relative(meshes, *_pressed(meshes, parameters), 2)]
-    else:
-        relative = [_relative(meshes, pad, body, 2) for _, pad, body in
-                    _clamping_spots(meshes, parameters, "piston", INNER)]
-    return Rows(tuple(scipy.sparse.csr_matrix(sum(parts) / len(relative)) for parts in zip(*relative, strict=True)))
+    rows = []
+    for pad in _pressed_pads(parameters):
+        if parameters.piston.kind == "body":
+            pairs = [_pressed(meshes, parameters, -1 if pad == INNER else 1)]
+        else:
+            pairs = [(spot, other) for _, spot, other in _clamping_spots(meshes, parameters, "piston", pad)]
+        share = (1 if pad == INNER else -1) / len(pairs)
+        rows += [[share * part for part in _relative(meshes, *pair, 2)] for pair in pairs]
+    return Rows(tuple(scipy.sparse.csr_matrix(sum(parts)) for parts in zip(*rows, strict=True)))
 
 
 def _clamped(prefix, normal, shear, places):
@@ -117,22 +129,23 @@ def _clamped(prefix, normal, shear, places):
 
 
 def _guide_pin(meshes, parameters, end, sign):
-    """Axial, tangential and radial springs on the end faces of the housing, at two depths, to bracket or ground."""
+    """Axial, tangential and radial springs on the end faces of the housing, at two depths, to bracket or ground: of a
+    guide pin, or of a bolt that holds a fixed caliper."""
     c, j = parameters.caliper, parameters.joints
     front = meshes[CALIPER].node[:, 2].min() + c.housing_depth
     depths = {"front": c.housing_depth / 6, "rear": 5 * c.housing_depth / 6}
     if on_bracket := parameters.bracket.kind == "body":
         beside = min(parameters.bracket.column_height + front, c.housing_depth)
         depths = {name: share * beside for name, share in _PIN_DEPTHS.items()}
-    pins = []
+    pins, part = [], "mount" if c.fixed else "guide_pin"
+    along, across = (j.mount_stiffness,) * 2 if c.fixed else (j.guide_pin_axial_stiffness, j.guide_pin_stiffness)
     for end_name, depth in depths.items():
         where = j.guide_pin_radius, front - depth, j.spot_size
-        name = f"guide_pin_{end}_{end_name}"
+        name = f"{part}_{end}_{end_name}"
         spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, *where, name)
         held = _on_bracket(meshes, parameters, sign, *where, name) if on_bracket else None
-        pins += [(f"guide_pin_{end}_{kind}_{end_name}", stiffness / 2, spot, held, kind) for kind, stiffness in
-                 (("axial", j.guide_pin_axial_stiffness), ("tangential", j.guide_pin_stiffness),
-                  ("radial", j.guide_pin_stiffness))]
+        pins += [(f"{part}_{end}_{kind}_{end_name}", stiffness / 2, spot, held, kind) for kind, stiffness in
+                 (("axial", along), ("tangential", across), ("radial", across))]
     return pins
 
 
@@ -172,52 +185,60 @@ def _mounts(meshes, parameters):
     return springs
 
 
-def _rim_spots(meshes, parameters):
-    """(place, spot on the inner backplate, spot on the piston) around the rim of the piston."""
+def _rim_spots(meshes, parameters, place):
+    """(name, spot on a backplate, spot on the piston) around the rim of the piston at a Place."""
     p, index = parameters.piston, body_names(parameters).index("piston")
     margin = _RIM_MARGIN * p.wall
     radius, turn = (a.ravel() for a in np.meshgrid(
         np.linspace(p.diameter / 2 - p.wall + margin, p.diameter / 2 - margin, _SPOT_POINTS),
         np.linspace(-_RIM_REACH, _RIM_REACH, _SPOT_POINTS)))
-    places = []
+    spots, pad = [], OUTER if place.side > 0 else INNER
     for k in range(_RIM_SPOTS):
         angle = 2 * np.pi * k / _RIM_SPOTS + turn
-        point = np.column_stack((parameters.joints.clamping_radius + radius * np.cos(angle), radius * np.sin(angle),
-                                 np.full(len(radius), -pad_height(parameters))))
-        place = f"{360 * k // _RIM_SPOTS}"
-        places.append((place, *(_spot(meshes, body, point, f"piston_rim_{place}") for body in (INNER, index))))
-    return places
+        point = place.at(np.column_stack((parameters.joints.clamping_radius + radius * np.cos(angle),
+                                          radius * np.sin(angle), np.full(len(radius), -pad_height(parameters)))))
+        name = f"{place.name}{360 * k // _RIM_SPOTS}"
+        spots.append((name, *(_spot(meshes, body, point, f"piston_rim_{name}") for body in (pad, index))))
+    return spots
 
 
 def _seal(meshes, parameters):
-    """Springs of the seal between a piston body and its bore, at four places around it."""
+    """Springs of the seals between pistons and their bores, at four places around each."""
     if parameters.piston.kind != "body":
         return []
+    return [spring for place in places(parameters) for spring in _seal_at(meshes, parameters, place)]
+
+
+def _seal_at(meshes, parameters, place):
+    """Springs of the seal of the piston at a Place."""
     p, j, index = parameters.piston, parameters.joints, body_names(parameters).index("piston")
     (first, last), half, floor = bore(parameters)
     middle, rim = j.clamping_radius, p.diameter / 2
     height = floor + p.bore_depth - p.seal_depth + np.linspace(-1, 1, _SPOT_POINTS) * min(p.seal_depth, j.spot_size) / 4
     springs = []
-    for place, x, y, wall in (("outer", rim, 0, (last, 0)), ("trailing", 0, rim, (middle, middle * np.tan(half))),
-                              ("inner", -rim, 0, (first, 0)), ("leading", 0, -rim, (middle, -middle * np.tan(half)))):
-        spots = [_spot(meshes, body, np.column_stack((np.full(_SPOT_POINTS, a), np.full(_SPOT_POINTS, b), height)),
-                       f"seal_{place}") for body, a, b in ((index, middle + x, y), (CALIPER, *wall))]
-        springs += [(f"seal_{kind}_{place}", stiffness / 4, *spots, kind) for kind, stiffness in
+    for end, x, y, wall in (("outer", rim, 0, (last, 0)), ("trailing", 0, rim, (middle, middle * np.tan(half))),
+                            ("inner", -rim, 0, (first, 0)), ("leading", 0, -rim, (middle, -middle * np.tan(half)))):
+        name = f"{place.name}{end}"
+        spots = [_spot(meshes, body, place.at(np.column_stack((np.full(_SPOT_POINTS, a), np.full(_SPOT_POINTS, b),
+                                                               height))), f"seal_{name}")
+                 for body, a, b in ((index, middle + x, y), (CALIPER, *wall))]
+        springs += [(f"seal_{kind}_{name}", stiffness / 4, *spots, kind) for kind, stiffness in
                     (("axial", j.piston_stiffness), ("tangential", j.seal_stiffness), ("radial", j.seal_stiffness))]
     return springs
 
 
-def _pressed(meshes, parameters):
-    """(crown of the piston, floor of the bore below it): what the fluid presses on."""
-    index, floor = body_names(parameters).index("piston"), bore(parameters)[2]
-    named = [named_mean(meshes[body], "pressed") for body in (index, CALIPER)]
+def _pressed(meshes, parameters, side):
+    """(crowns of the pistons, floors of the bores behind them) of a side: what the fluid presses on."""
+    index, floor = body_names(parameters).index("piston"), -side * bore(parameters)[2]
+    named = [named_mean(meshes[body], "pressed" if side < 0 else "pressed_outer_pad") for body in (index, CALIPER)]
     if all(mean is not None for mean in named):
         return _Spot(index, named[0]), _Spot(CALIPER, named[1])
-    crown = faces_towards(meshes[index], -1)
+    crown = faces_towards(meshes[index], side)
+    crown = crown[side * face_normals(meshes[index].node, crown)[1][:, 2] > 0]
     point, area = (a.reshape(-1, *a.shape[2:]) for a in face_points(meshes[index].node, crown))
     below, group = np.column_stack((point[:, :2], np.full(len(point), floor))), np.zeros(len(point), int)
     return (_Spot(index, surface_rows(meshes[index].node, crown, point, area, group, "structure.piston: crown")),
-            _Spot(CALIPER, surface_rows(meshes[CALIPER].node, faces_towards(meshes[CALIPER], 1), below, area, group,
+            _Spot(CALIPER, surface_rows(meshes[CALIPER].node, faces_towards(meshes[CALIPER], -side), below, area, group,
                                         "structure.piston: floor of the bore")))
 
 
@@ -233,16 +254,17 @@ def _clamping_spots(meshes, parameters, prefix, pad):
     j, c = parameters.joints, parameters.caliper
     side = 1 if pad == OUTER else -1
     back = side * pad_height(parameters)
-    caliper = back if pad == OUTER else back - c.piston_gap
+    caliper = back + side * c.piston_gap if prefix == "piston" else back
+    first = "outer_pad_" if pad == OUTER and prefix == "piston" else ""
     offset = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS)
     for end, forward in (("leading", -1), ("trailing", 1)):
         for level, across in (("inner", -1), ("outer", 1)):
             x, y = (a.ravel() for a in np.meshgrid(
                 j.clamping_radius + across * j.clamping_height / 2 + offset,
                 forward * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
-            spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix}_{end}_{level}")
+            spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix}_{first}{end}_{level}")
                      for body, z in ((pad, back), (CALIPER, caliper)))
-            yield f"{end}_{level}", *spots
+            yield f"{first}{end}_{level}", *spots
 
 
 def _spot(meshes, body, point, name):
@@ -274,5 +296,5 @@ def _relative(meshes, first, other, axis):
 
 
 #: kind of joint -> its springs [(name, stiffness, spot, the other spot or None, axis)]
-_MADE = {"guide_pin or abutment": _supports, "finger": _fingers, "piston": _on_inner_pad, "seal": _seal,
+_MADE = {"guide_pin or abutment": _supports, "finger": _fingers, "piston": _on_pads, "seal": _seal,
          "mount": _mounts}

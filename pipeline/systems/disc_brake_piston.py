@@ -1,4 +1,7 @@
-"""Piston of the disc brake in its bore, and the brake fluid behind it.
+"""Pistons of the disc brake in their bores, and the brake fluid behind them.
+
+One or two stand beside one another under the inner pad, and as many over the outer one in a fixed caliper; all of them
+are one body of several parts. What is said of one is that in the middle under the inner pad, and turned to its Place.
 
 The piston is a cup of steel whose rim bears on the inner backplate and whose crown closes the bore of the housing. It
 is meshed, because a cup is no rigid body here: its rim turns oval at a few kHz. The mesh of revolution needs a hole in
@@ -18,6 +21,9 @@ sqrt(k / m) / (2 pi), some 100 Hz, the inertia of the line lets none flow, and t
 coordinate, an ordinary mass, thus does both in every analysis alike. Above its first resonance, some 300 Hz for 1 m,
 the line is rather a waveguide of impedance A^2 rho v / a (v the speed of sound) than a mass; it stays far above
 k / omega, so that x_l is at rest with either.
+
+Bores of several pistons are joined: A is the area of those on one pad, V that of all, x the mean motion of those under
+the inner pad plus, in a fixed caliper, that of those over the outer one.
 """
 
 from dataclasses import dataclass
@@ -35,6 +41,22 @@ _HOLE = 0.1
 
 
 @dataclass(frozen=True)
+class Place:
+    """Where a piston stands: ``angle`` rad about the disc from the middle of the pads, ``side`` -1 under the inner pad,
+    1 over the outer one; ``name`` begins those of its joints, as in outer_pad_leading_."""
+
+    name: str
+    angle: float
+    side: int
+
+    def at(self, point):
+        """Points (n, 3) of a piston in the middle under the inner pad, at this place: mirrored and turned."""
+        x, y, z = np.asarray(point).T
+        return np.column_stack((np.cos(self.angle) * x - np.sin(self.angle) * y,
+                                np.sin(self.angle) * x + np.cos(self.angle) * y, -self.side * z))
+
+
+@dataclass(frozen=True)
 class FluidColumn:
     """Fluid per motion of the piston: spring of that in the bore, N/m, inertia, kg, and drag, N s/m, of the line."""
 
@@ -43,8 +65,17 @@ class FluidColumn:
     drag: float
 
 
+def places(parameters):
+    """(Place, ...) of the pistons."""
+    p = parameters.piston
+    beside = (("leading_", -_off_middle(parameters)), ("trailing_", _off_middle(parameters)))
+    sides = (("", -1), ("outer_pad_", 1)) if parameters.caliper.fixed else (("", -1),)
+    return tuple(Place(side + end, angle, sign) for side, sign in sides
+                 for end, angle in (beside if p.count == 2 else (("", 0.0),)))
+
+
 def piston(parameters):
-    """Solid of ``parameters.piston`` between housing and inner backplate. Raises ConfigError where it does not fit."""
+    """Solid of ``parameters.piston`` between housing and backplates. Raises ConfigError where it does not fit."""
     _check(parameters)
     p = parameters.piston
     radius = divided((_HOLE * p.diameter / 2, p.diameter / 2 - p.wall, p.diameter / 2), p.element_size)
@@ -52,18 +83,31 @@ def piston(parameters):
     mask = np.ones((len(radius) - 1, p.angular_cells, len(height) - 1), bool)
     mask[np.ix_(radius[1:] <= p.diameter / 2 - p.wall + 1e-9, np.ones(p.angular_cells, bool),
                 height[1:] > p.crown - p.length + 1e-9)] = False
-    around = revolve(radius, np.linspace(0, 2 * np.pi, p.angular_cells + 1), height, mask)
-    mesh = Mesh(around.node + (parameters.joints.clamping_radius, 0.0, -pad_height(parameters)), around.element,
-                around.kind, around.cell)
+    mesh = _at_all(places(parameters), revolve(radius, np.linspace(0, 2 * np.pi, p.angular_cells + 1), height, mask),
+                   (parameters.joints.clamping_radius, 0.0, -pad_height(parameters)))
     return Solid(mesh, np.zeros(len(mesh.element), int), ("steel",), np.array([p.density]),
                  isotropic(p.young, p.poisson)[None], p.damping_ratio, np.empty(0, int), np.array([p.loss_factor]))
 
 
+def _at_all(at, mesh, middle):
+    """One Mesh of a piston, whose rim is centred on the origin, ``at`` every Place; ``middle``: of the rim under the
+    inner pad. Elements keep their orientation: over the outer pad it is turned twice, not mirrored."""
+    nodes = [place.at(mesh.node * (1, -place.side, 1) + middle) for place in at]
+    first = len(mesh.node) * np.arange(len(at))
+    return Mesh(np.concatenate(nodes), np.concatenate([mesh.element + k for k in first]),
+                mesh.kind, np.tile(mesh.cell, (len(at), 1)))
+
+
 def bore(parameters):
-    """((first, last) radius, half the angle, height of the floor) of the recess in the housing."""
+    """((first, last) radius, half the angle, height of the floor) of the recess of one piston in the housing."""
     middle, reach = parameters.joints.clamping_radius, bore_radius(parameters)
     floor = -pad_height(parameters) - parameters.caliper.piston_gap - parameters.piston.bore_depth
     return (middle - reach, middle + reach), float(np.arcsin(reach / middle)), floor
+
+
+def _off_middle(parameters):
+    """Half the angle between twin pistons."""
+    return parameters.piston.spacing / 2 / parameters.joints.clamping_radius
 
 
 def bore_radius(parameters):
@@ -72,13 +116,13 @@ def bore_radius(parameters):
 
 
 def fluid_column(parameters):
-    """FluidColumn of the fluid behind the piston of ``parameters``; None without a piston."""
+    """FluidColumn of the fluid behind the pistons of ``parameters``; None without a piston."""
     p = parameters.piston
     if p.kind != "body":
         return None
     f = p.fluid
-    area, line = np.pi * p.diameter**2 / 4, np.pi * f.line_diameter**2 / 4
-    volume = area * column_length(parameters) + f.passage_volume
+    area, line = p.count * np.pi * p.diameter**2 / 4, np.pi * f.line_diameter**2 / 4
+    volume = (1 + parameters.caliper.fixed) * area * column_length(parameters) + f.passage_volume
     return FluidColumn(float(f.bulk_modulus * area**2 / volume), float(f.density * f.line_length * area**2 / line),
                        float(128 * f.viscosity * f.line_length * area**2 / (np.pi * f.line_diameter**4)))
 
@@ -91,6 +135,8 @@ def column_length(parameters):
 def _check(parameters):
     p, c, pad, middle = parameters.piston, parameters.caliper, parameters.pad, parameters.joints.clamping_radius
     rim, reach = p.diameter / 2, bore_radius(parameters)
+    half, off = np.arcsin(reach / middle), _off_middle(parameters) if p.count == 2 else 0.0
+    end = half + off
     rules = (
         (p.wall < (1 - _HOLE) * rim, "wall", f"a wall thinner than {(1 - _HOLE) * rim:g} m", f"{p.wall:g} m"),
         (p.crown < p.length, "crown", f"a crown thinner than the piston is long, {p.length:g} m", f"{p.crown:g} m"),
@@ -100,8 +146,10 @@ def _check(parameters):
         (c.inner_radius < middle - reach and middle + reach < c.bridge_inner_radius, "diameter",
          f"a bore in the housing, {c.inner_radius:g} to {c.bridge_inner_radius:g} m",
          f"{middle - reach:g} to {middle + reach:g} m"),
-        (np.arcsin(reach / middle) < c.angle / 2, "diameter", f"a bore within the caliper, {c.angle / 2:.4g} rad",
-         f"{np.arcsin(reach / middle):.4g} rad"),
+        (p.count == 1 or half < off, "spacing", f"bores apart, {2 * half * middle:.4g} m or more", f"{p.spacing:g} m"),
+        (end < c.angle / 2, "diameter", f"a bore within the caliper, {c.angle / 2:.4g} rad", f"{end:.4g} rad"),
+        (off + np.arcsin(rim / middle) < pad.angle / 2, "spacing", f"rims on the backplate, within {pad.angle / 2:.4g}"
+         " rad", f"{off + np.arcsin(rim / middle):.4g} rad"),
         (p.bore_depth < c.housing_depth, "bore_depth", f"a floor in the housing, above {c.housing_depth:g} m",
          f"{p.bore_depth:g} m"),
         (column_length(parameters) > 0, "length",

@@ -14,6 +14,7 @@ from pipeline.case_models.scatter import (
     draw_values,
     factors_of,
     family,
+    fitting,
     friction_errors,
     standard_deviation,
 )
@@ -123,3 +124,19 @@ def test_without_a_friction_map_friction_is_that_of_the_settings_and_its_scatter
     np.testing.assert_allclose(state.speed_slope, -0.4 * np.exp(-speed / 0.5))
     settings.friction_at_rest = None
     np.testing.assert_allclose(family(small_brake(), 0, None, settings).friction(np.ones(2), speed).coefficient, 0.4)
+
+
+def test_sources_of_the_program_fit_the_brake():
+    """Bolts of a fixed caliper stand for guide pins, absent fingers are left out; what a case states stays."""
+    def with_joints(*names):
+        return SimpleNamespace(joint_name=[f"{name}_leading_axial" for name in names])
+
+    def parts(found):
+        return [source.part for source in found if source.kind == "joint_stiffness"]
+
+    default = sources(*DEFAULT)
+    assert fitting(default, with_joints("abutment", "finger", "piston", "guide_pin", "mount")) == default
+    assert parts(fitting(default, with_joints("abutment", "piston", "mount"))) == ["abutment", "piston", "mount"]
+    assert len(fitting(default, with_joints("abutment", "piston"))) == len(default) - 2
+    assert fitting(default, with_joints("spring")) == default
+    assert fitting(default[:2], with_joints("piston")) == default[:2]

@@ -46,7 +46,8 @@ def small_map():
     return FrictionMap(pressure=pressure, speed=speed, distance=distance, friction=friction,
                        friction_std=0 * friction, normal_stiffness=np.full((3, 3), 1e11), computed_pressure=pressure,
                        computed_speed=speed, best_pressure=np.full(3, 2e6), pressure_slope_std=np.full(3, 0.01),
-                       speed_slope_std=np.full(3, 0.01), error_correlation=np.tile(np.eye(3), (3, 1, 1)))
+                       speed_slope_std=np.full(3, 0.01), error_correlation=np.tile(np.eye(3), (3, 1, 1)),
+                       bulk_temperature=0.0)
 
 
 def axial(pad, place=0.0):

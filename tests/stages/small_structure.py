@@ -45,7 +45,7 @@ def small_friction_map(friction=0.5):
         pressure=[1e5, 1e7], speed=[0.1, 10.0], distance=[0.0, 1.0], friction=np.full((2, 2, 2), friction),
         friction_std=np.zeros((2, 2, 2)), normal_stiffness=np.full((2, 2), 1e12), computed_pressure=[1e5],
         computed_speed=[0.1], best_pressure=[1e6, 1e6], pressure_slope_std=[0.0, 0.0], speed_slope_std=[0.0, 0.0],
-        error_correlation=np.tile(np.eye(3), (2, 1, 1)))
+        error_correlation=np.tile(np.eye(3), (2, 1, 1)), bulk_temperature=0.0)
 
 
 def small_meshes():

@@ -243,3 +243,23 @@ def test_the_map_over_temperature_is_that_of_a_softer_limit(result):
     np.testing.assert_allclose(made.friction[1], friction_map(softer, settings=MapSettings()).friction, rtol=1e-3)
     with pytest.raises(ConfigError, match="bulk_temperatures: expected less than 2000 K"):
         friction_map(result, settings=MapSettings(bulk_temperatures=["2500 K"]))
+
+
+@pytest.mark.exact
+def test_the_map_of_warm_bodies_is_that_of_a_softer_limit(result):
+    """Its friction and all errors; the map over temperature stays, whatever the temperature of the map, but for what
+    curves through other points differ between them."""
+    stated = Settings(**TINY)
+    warm = friction_map(result, settings=MapSettings(bulk_temperature="300 K", bulk_temperatures=["0 K", "300 K"]))
+    assert warm.bulk_temperature == 300
+    softer = micro_friction(rough(), settings=Settings(
+        **TINY, third_body_factor=stated.third_body_factor * (1 - 300 * stated.softening)))
+    made = friction_map(softer, settings=MapSettings())
+    np.testing.assert_allclose(warm.friction, made.friction, rtol=1e-3)
+    np.testing.assert_allclose(warm.friction_std, made.friction_std, rtol=2e-3)
+    np.testing.assert_allclose(warm.pressure_slope_std, made.pressure_slope_std, rtol=2e-3)
+    cold = friction_map(result, settings=MapSettings())
+    np.testing.assert_allclose(warm.over_temperature["bodies"].friction[0], cold.friction, rtol=1e-5)
+    np.testing.assert_allclose(warm.over_temperature["bodies"].friction[1], warm.friction, rtol=1e-12)
+    with pytest.raises(ConfigError, match="friction_map.bulk_temperature: expected less than 2000 K"):
+        friction_map(result, settings=MapSettings(bulk_temperature="2500 K"))

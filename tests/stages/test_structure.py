@@ -1,5 +1,7 @@
 """The stage on a coarse brake: modes, contact law, preload and what changes them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,8 +10,10 @@ from pipeline.contract import ConfigError, Context
 from pipeline.contract import case as cases
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.products import FrictionMap
+from pipeline.recordings import registry
 from pipeline.systems.disc_brake_disc import disc_mesh
 from stages.structure import Joints, Settings, structure
+from tests.chain.conftest import ROOT
 from tests.decks.meshes.small_decks import abaqus
 from tests.systems.test_disc_brake import COARSE
 from tests.systems.test_disc_brake_bracket import BODIES
@@ -24,7 +28,7 @@ def friction_map(stiffness=(5e11, 1e12, 1.4e12)):
                        friction=np.full((3, 1, 2), 0.5), friction_std=np.zeros((3, 1, 2)), normal_stiffness=table,
                        computed_pressure=[1e6, 2e6, 3e6], computed_speed=[1.0], best_pressure=[2e6, 2e6],
                        pressure_slope_std=[0.0, 0.0], speed_slope_std=[0.0, 0.0],
-                       error_correlation=np.tile(np.eye(3), (2, 1, 1)))
+                       error_correlation=np.tile(np.eye(3), (2, 1, 1)), bulk_temperature=0.0)
 
 
 def run(stiffness=(5e11, 1e12, 1.4e12), **changes):
@@ -128,3 +132,39 @@ def test_a_faulty_deck_is_refused_before_anything_is_computed(tmp_path):
     (tmp_path / "a.yaml").write_text("chain: own_brake\nstructure: {disc: {mesh_file: disc.inp}}\n")
     with pytest.raises(ConfigError, match="disc.inp: expected nodes that the deck defines, found node 2 of element 1"):
         cases.load(tmp_path / "a.yaml", stages.CHAINS, stages.load)
+
+
+def test_warm_linings_are_those_of_softer_moduli(brake):
+    """All moduli of the linings by one factor, nothing else; without a softening the temperature changes nothing."""
+    def warmed(softening):
+        changed = Settings(**QUICK | {"pad": QUICK["pad"].model_copy(update={"lining_softening": softening})})
+        return structure(replace(friction_map(), bulk_temperature=200.0), changed,
+                         context=Context(solver=available()[0]))
+
+    names = [f"lining_{kind}" for kind in ("young_radial", "young_tangential", "young_normal", "shear_normal",
+                                           "shear_in_plane")]
+    pad = Settings(**QUICK).pad
+    softer = run(pad=pad.model_copy(update={name: 0.7 * getattr(pad, name) for name in names}))
+    warm = warmed(1.5e-3)
+    for name in ("pad_outer", "pad_inner", "disc"):
+        np.testing.assert_allclose(getattr(warm, name).frequency, getattr(softer, name).frequency, rtol=1e-9,
+                                   atol=0.1)
+    np.testing.assert_allclose(warm.preload, softer.preload, rtol=1e-9)
+    assert (warm.pad_outer.frequency[6:] < 0.99 * brake.pad_outer.frequency[6:]).any()
+    np.testing.assert_array_equal(warmed(0.0).preload, brake.preload)
+
+
+def test_linings_that_melt_are_refused_before_all_else():
+    changes = ("friction_map.bulk_temperature=400 K", "structure.pad.lining_softening=3e-3 1/K")
+    with pytest.raises(ConfigError, match="lining_softening: expected less than 0.0025 1/K, so that moduli are left at"
+                                          " friction_map.bulk_temperature 400 K, found 0.003 1/K"):
+        cases.load(ROOT / "configs" / "disc_brake_quick.yaml", stages.CHAINS, stages.load, changes, registry.path)
+
+
+def test_a_fixed_caliper_presses_both_pads_alike():
+    """Four pistons; each pad carries the whole force, up to what their seals keep."""
+    made = run(caliper=COARSE["caliper"].model_copy(update={"fixed": True}),
+               piston={"kind": "body", "count": 2, "diameter": "38 mm"}, pressures=["1 MPa"])
+    for pad in (1, 2):
+        assert made.preload[0][made.contact_body == pad].sum() == pytest.approx(1e6 * made.piston_area, rel=1e-2)
+    assert (made.others["piston"].frequency < 1).sum() == 24 and len(made.fluid_stiffness) == 1

@@ -85,3 +85,56 @@ def test_kinds_of_joints_have_their_loss_factors():
     seen = {name.removeprefix("guide_").split("_")[0]: loss
             for name, loss in zip(lossy.joints.name, lossy.joints.loss_factor, strict=True)}
     assert seen == {kind.removeprefix("guide_"): loss for kind, loss in losses.items()}
+
+
+FIXED = BODIES["caliper"].model_copy(update={"fixed": True})
+TWINS = {"kind": "body", "count": 2, "diameter": "38 mm"}
+
+
+@pytest.fixture(scope="module", params=["bodies", "seals"])
+def fixed(request):
+    """A brake with a fixed caliper on the ground."""
+    return build(Settings(**{**COARSE, "caliper": FIXED, **({"piston": TWINS} if request.param == "bodies" else {})}))
+
+
+def test_a_fixed_caliper_is_bolted_on(fixed):
+    """Nothing else holds it against the ground but the abutments of the pads; no fingers, no guide pins."""
+    assert not [name for name in fixed.joints.name if name.startswith(("finger", "guide_pin"))]
+    moved = fixed.joints.rows.matrix @ rigid(fixed, lambda x: np.broadcast_to([1e-3, 2e-3, -3e-3], x.shape))
+    expected = {"radial": 1e-3, "tangential": 2e-3, "axial": -3e-3}
+    for name, value in zip(fixed.joints.name, moved, strict=True):
+        kind = next(k for k in (*expected, "normal") if k in name)
+        held = name.startswith(("mount", "abutment"))
+        assert value == pytest.approx(expected[kind] if held else 0, abs=1e-12), name
+
+
+def inwards(x):
+    """Unit motion of points (n, 3) towards the disc."""
+    return -np.sign(x[:, 2:]) * [0, 0, 1.0]
+
+
+def test_line_pressure_pushes_both_pads_and_not_the_caliper(fixed):
+    """The same force on both sides; of twins a half on each."""
+    pushed = {name: (fixed.piston.matrix @ alone(fixed, name, lambda x: np.broadcast_to([0, 0, 1.0], x.shape)))[0]
+              for name in fixed.names}
+    assert pushed["caliper"] == pytest.approx(0, abs=1e-12)
+    if "piston" in fixed.names:
+        assert (fixed.piston.matrix @ alone(fixed, "piston", inwards))[0] == pytest.approx(2, abs=1e-12)
+        one = alone(fixed, "piston", lambda x: inwards(x) * ((x[:, 1:2] > 0) & (x[:, 2:] < 0)))
+        assert (fixed.piston.matrix @ one)[0] == pytest.approx(0.5, abs=1e-12)
+    else:
+        assert pushed["pad_inner"] == pytest.approx(1) and pushed["pad_outer"] == pytest.approx(-1)
+
+
+def test_springs_of_a_fixed_caliper_add_up_piston_by_piston(fixed):
+    j, stiffness = Settings().joints, dict(zip(fixed.joints.name, fixed.joints.stiffness, strict=True))
+
+    def total(*parts):
+        return sum(k for name, k in stiffness.items() if all(part in name for part in parts))
+
+    twins = "piston" in fixed.names
+    assert total("piston", "normal") == pytest.approx(4 * j.shim_stiffness if twins else 2 * j.piston_stiffness)
+    assert total("piston", "normal", "outer_pad") == pytest.approx(total("piston", "normal") / 2)
+    assert total("seal", "axial") == pytest.approx(4 * j.piston_stiffness if twins else 0)
+    assert total("mount", "leading", "axial") == pytest.approx(j.mount_stiffness)
+    assert len(set(fixed.joints.name)) == len(fixed.joints.name)

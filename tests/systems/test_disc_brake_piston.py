@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.supports import held_modes
@@ -86,6 +87,64 @@ def test_fluid_column_and_line():
     ringing = np.sqrt(fluid_column(with_piston()).stiffness / column.inertia) / (2 * np.pi)
     assert 50 < ringing < 300
     assert fluid_column(Settings(**COARSE)) is None
+
+
+def several(fixed=True, **changes):
+    """Twin pistons on each side of a fixed caliper, or on one of a floating one."""
+    caliper = BODIES["caliper"].model_copy(update={"fixed": fixed})
+    return Settings(**{**BODIES, "bracket": {"kind": "ground"}, "caliper": caliper,
+                       "piston": {"kind": "body", "count": 2, "diameter": "38 mm", **changes}})
+
+
+def mass(body):
+    """Mass of a Solid and its centre."""
+    matrix, node = body.matrices()[1], body.mesh.node
+    along = np.tile([0.0, 0.0, 1.0], len(node))
+    weight = (matrix @ along)[2::3]
+    return weight.sum(), weight @ node / weight.sum()
+
+
+def test_twins_on_both_sides_are_four_of_one():
+    """One body of four parts: its mass, its centre between the pads, every mode four times, mirrored places."""
+    settings = several()
+    one, four = piston(with_piston(diameter="38 mm")), piston(settings)
+    (single, _), (whole, centre) = mass(one), mass(four)
+    assert whole == pytest.approx(4 * single, rel=1e-9)
+    off = settings.piston.spacing / 2 / settings.joints.clamping_radius
+    assert centre == pytest.approx([settings.joints.clamping_radius * np.cos(off), 0, 0], abs=1e-9)
+    first, all_modes = (held_modes(*body.matrices(), np.empty(0, int), "superlu", count=count)[0]
+                        for body, count in ((one, 8), (four, 32)))
+    assert all_modes[:24] == pytest.approx(0, abs=1.0)
+    assert all_modes[24:] == pytest.approx(np.repeat(first[6:8], 4), rel=1e-6)
+    for point in (four.mesh.node * (1, -1, 1), four.mesh.node * (1, 1, -1)):
+        assert scipy.spatial.cKDTree(four.mesh.node).query(point)[0].max() < 1e-9
+
+
+def test_each_has_its_bore():
+    settings = several()
+    solid = caliper(settings.model_copy(update={"piston": Settings().piston}))
+    (first, last), half, _ = bore(settings)
+    recess = (last**2 - first**2) * half * settings.piston.bore_depth
+    lost = mass(solid)[0] - mass(caliper(settings))[0]
+    assert lost == pytest.approx(4 * settings.caliper.density * recess, rel=1e-3)
+    assert mass(caliper(settings))[1][2] == pytest.approx(0, abs=1e-9)
+
+
+def test_fluid_of_joined_bores():
+    """A^2 B / V with the area of one side and the fluid of all: four that move alike compress it by their sum."""
+    two, four = (fluid_column(several(fixed, fluid={"passage_volume": "0 mm^3"})) for fixed in (False, True))
+    one = fluid_column(with_piston(diameter="38 mm", fluid={"passage_volume": "0 mm^3"}))
+    assert two.stiffness == pytest.approx(2 * one.stiffness) and four.stiffness == pytest.approx(one.stiffness)
+    assert two.inertia == pytest.approx(4 * one.inertia) and four.drag == pytest.approx(two.drag)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"spacing": "36 mm"}, "spacing: expected bores apart, 0.03836 m or more, found 0.036 m"),
+    ({"spacing": "80 mm"}, "a bore within the caliper, 0.4189 rad, found 0.485"),
+])
+def test_twins_that_do_not_fit_are_refused(changes, message):
+    with pytest.raises(ConfigError, match=message):
+        piston(several(**changes))
 
 
 @pytest.mark.parametrize(("changes", "message"), [

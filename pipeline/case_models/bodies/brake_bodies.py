@@ -75,6 +75,8 @@ class Pad(FromMesh):
     lining_poisson: float = option(0.2, "Poisson's ratios of the lining", gt=-0.5, lt=0.5)
     lining_shear_normal: Quantity("Pa", gt=0) = option("1.2 GPa", "shear moduli with the thickness direction")
     lining_shear_in_plane: Quantity("Pa", gt=0) = option("2.5 GPa", "in-plane shear modulus")
+    lining_softening: Quantity("1/K", ge=0) = option("0 1/K", "share of its moduli that the lining loses per kelvin of"
+                                                     " friction_map.bulk_temperature")
     lining_density: Quantity("kg/m^3", gt=0) = option("2600 kg/m^3", "density of the lining")
     backplate_young: Quantity("Pa", gt=0) = option("207 GPa", "Young's modulus of the backplate")
     backplate_poisson: float = option(0.29, "Poisson's ratio of the backplate", gt=-1, lt=0.5)
@@ -96,15 +98,18 @@ class Pad(FromMesh):
 
 
 class Caliper(FromMesh):
-    """Floating caliper: fingers, bridge and solid housing."""
+    """Caliper: fingers, bridge and solid housing; a fixed one has a housing on both sides."""
 
+    fixed: bool = option(False, "fixed: pistons and a housing on both sides of the disc, bolted on where guide pins"
+                                " would be; else floating")
     inner_radius: Quantity("m", gt=0) = option("97 mm", "inner radius of fingers and housing")
     bridge_inner_radius: Quantity("m", gt=0) = option("162 mm", "inner radius of the bridge over the rim")
     bridge_outer_radius: Quantity("m", gt=0) = option("180 mm", "outer radius of the bridge")
     angle: Quantity("rad", gt=0, lt=3) = option("48 deg", "angle that the caliper spans")
     finger_thickness: Quantity("m", gt=0) = option("15 mm", "thickness of the finger plate")
-    housing_depth: Quantity("m", gt=0) = option("45 mm", "depth of the cylinder housing")
-    piston_gap: Quantity("m", gt=0) = option("4 mm", "distance of housing and inner backplate")
+    housing_depth: Quantity("m", gt=0) = option("45 mm", "depth of the cylinder housing, on both sides"
+                                                 " of a fixed caliper")
+    piston_gap: Quantity("m", gt=0) = option("4 mm", "distance of housing and backplate")
     young: Quantity("Pa", gt=0) = option("170 GPa", "Young's modulus")
     poisson: float = option(0.275, "Poisson's ratio", gt=-1, lt=0.5)
     density: Quantity("kg/m^3", gt=0) = option("7100 kg/m^3", "density")
@@ -164,15 +169,17 @@ class Fluid(Section):
 
 
 class Seal(Section):
-    """No piston body: its seal acts between housing and inner backplate."""
+    """No piston body: its seal acts between housing and backplate."""
 
     kind: Literal["seal"] = "seal"
 
 
 class Piston(FromMesh):
-    """Piston, a cup whose rim bears on the inner backplate, in the bore of the housing."""
+    """Pistons, cups whose rims bear on the backplates, in bores of the housing: all of them one body."""
 
     kind: Literal["body"] = "body"
+    count: int = option(1, "pistons on a pad, beside one another along sliding", ge=1, le=2)
+    spacing: Quantity("m", gt=0) = option("46 mm", "distance of two pistons along sliding")
     diameter: Quantity("m", gt=0) = option("48 mm", "diameter")
     length: Quantity("m", gt=0) = option("34 mm", "length")
     wall: Quantity("m", gt=0) = option("5 mm", "thickness of the wall")

@@ -11,20 +11,21 @@ class Joints(Section):
     abutment_stiffness: Quantity("N/m", gt=0) = option("50 MN/m", "trailing abutment of a pad, along sliding")
     clip_stiffness: Quantity("N/m", gt=0) = option("1 MN/m", "clip at the leading end of a pad, along sliding")
     abutment_radial_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "abutment of a pad end, radial")
-    finger_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "fingers on the outer backplate, normal")
+    finger_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "fingers of a floating caliper on the outer"
+                                                     " backplate, normal")
     finger_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "fingers on the outer backplate, each direction"
                                                            " in the plane")
-    piston_stiffness: Quantity("N/m", gt=0) = option("0.1 MN/m", "piston seal, normal; the pressure is held, so the"
-                                                     " brake fluid adds none")
-    piston_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "piston on the inner backplate, each direction"
+    piston_stiffness: Quantity("N/m", gt=0) = option("0.1 MN/m", "seal of one piston, normal; the pressure is held,"
+                                                     " so the brake fluid adds none")
+    piston_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "one piston on its backplate, each direction"
                                                            " in the plane")
     guide_pin_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "one guide pin across its axis")
     guide_pin_axial_stiffness: Quantity("N/m", gt=0) = option("100 kN/m", "boot of one guide pin, axial")
-    shim_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "piston body on the inner backplate, normal")
+    shim_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "one piston body on its backplate, normal")
     seal_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "seal of a piston body in its bore, each direction"
                                                    " across the axis; along it piston_stiffness")
-    mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket with the knuckle behind it,"
-                                                    " each direction")
+    mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket, or of a fixed caliper,"
+                                                    " with the knuckle behind it, each direction")
     left_out: tuple[Literal["abutment", "finger", "piston", "guide_pin", "seal", "mount"], ...] = option(
         (), "kinds of joints that the springs of a deck stand for instead")
     abutment_loss_factor: float = option(0.0, "loss factor of abutments and clips, in both directions", ge=0)
@@ -39,7 +40,8 @@ class Joints(Section):
     clamping_height: Quantity("m", gt=0) = option("32 mm", "radial distance of their bearing spots")
     finger_distance: Quantity("m", gt=0) = option("60 mm", "distance of the fingers along sliding")
     piston_distance: Quantity("m", gt=0) = option("32 mm", "distance of the piston's bearing spots along sliding")
-    guide_pin_radius: Quantity("m", gt=0) = option("150 mm", "radius of the guide pins")
+    guide_pin_radius: Quantity("m", gt=0) = option("150 mm", "radius of the guide pins, or of the bolts of a"
+                                                      " fixed caliper")
     spot_size: Quantity("m", gt=0) = option("6 mm", "size of a bearing spot")
 
 

@@ -15,6 +15,7 @@ from pipeline.physics.fem.elasticity import assemble, centrifugal_load, geometri
 from pipeline.physics.fem.mesh import Mesh, boundary_faces, corners
 from pipeline.physics.fem.supports import free_freedoms
 from pipeline.physics.fem.ties import tie_stiffness
+from pipeline.physics.modal.natural_modes import lowest_modes
 from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.reduction.craig_bampton import (
     attachment,
@@ -26,6 +27,8 @@ from pipeline.physics.reduction.craig_bampton import (
 
 #: inertia that holds a free body acts at this share of the frequency of its last mode
 _INERTIA_SHARE = 0.05
+#: rigid motions show as frequencies below this share of those of single elements
+_RIGID_SHARE = 1e-5
 
 
 @dataclass(frozen=True)
@@ -109,7 +112,7 @@ def reduce_body(body, fixed_below, residual_below, solver):
         raise ConfigError(f"reduced model: {body.name}", "a turning body on rigid supports", "none",
                           "hold the nodes of its mount")
     if len(body.supported) or body.patterns is not None:
-        held = stiffness if len(body.supported) else _held_by_inertia(stiffness, mass, body.frequency)
+        held = stiffness if len(body.supported) else _held_by_inertia(stiffness, mass, body.frequency, solver)
         factor = factorise(held, solver)
         reduced = attachment(stiffness, mass, interface, body.frequency, body.modes[free], residual_below, factor)
     else:
@@ -137,12 +140,16 @@ def _loads(rows, patterns):
     return loads[independent_rows(loads)]
 
 
-def _held_by_inertia(stiffness, mass, frequency):
-    """The stiffness of a free body, regular by w^2 M with w far below its modes that are left out."""
+def _held_by_inertia(stiffness, mass, frequency, solver):
+    """The stiffness of a free body, regular by w^2 M with w far below its modes that are left out: below the last of
+    those kept, or where these are all rigid motions, below the first one left out."""
     if not len(frequency):
         raise ConfigError("reduced model", "rigid motions among the modes of a free body", "no mode",
                           "raise structure.frequency_max")
-    return stiffness + (2 * np.pi * _INERTIA_SHARE * frequency[-1]) ** 2 * mass
+    last, of_elements = frequency[-1], np.sqrt(stiffness.diagonal().sum() / mass.diagonal().sum()) / (2 * np.pi)
+    if last < _RIGID_SHARE * of_elements:
+        last = lowest_modes(stiffness, mass, solver, count=len(frequency) + 1)[0][-1]
+    return stiffness + (2 * np.pi * _INERTIA_SHARE * last) ** 2 * mass
 
 
 def rotation(body, free, factor):

@@ -89,6 +89,24 @@ def test_free_body_keeps_its_rows_and_does_not_turn(ring):
 
 
 @pytest.mark.exact
+def test_a_free_body_of_rigid_motions_alone_keeps_its_static_answers(ring):
+    """No elastic mode kept, two, or many: residual shapes make up for the rest of the elastic answer to two forces."""
+    matrices = assemble(ring.node, ring.element, ring.kind, ring.material, ring.density, ring.elasticity)
+    rim = np.flatnonzero((np.hypot(*ring.node[:, :2].T) > 0.1199) & (ring.node[:, 2] == 0.006))
+    frequency, modes = held_modes(*matrices, np.empty(0, int), "superlu", count=60)
+    rows = sp.csr_matrix(np.eye(3 * len(ring.node))[[3 * rim[0] + 2, 3 * rim[1] + 2]])
+    found = []
+    for kept in (6, 8, 60):
+        free = replace(ring, supported=np.empty(0, int), rows=rows, interface=np.arange(2), turns=False,
+                       patterns=sp.eye_array(2, format="csr"), frequency=frequency[:kept], modes=modes[:, :kept])
+        made = reduce_body(free, 2e3, 1e6, "superlu")
+        forces = made.rows.T @ [1.0, -1.0]
+        elastic = np.diag(made.stiffness) > 1e3
+        found.append(np.sum(forces[elastic] ** 2 / np.diag(made.stiffness)[elastic]))
+    assert found == pytest.approx([found[-1]] * 3, rel=1e-2)
+
+
+@pytest.mark.exact
 def test_loss_factors_make_the_imaginary_stiffness_of_their_materials(ring):
     """One for all is that share of the stiffness; each of two materials adds its own part."""
     inner = np.hypot(*ring.node[ring.element].mean(axis=1)[:, :2].T) < 0.06
