@@ -37,7 +37,7 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     upper_half,
 )
 from pipeline.physics.sliding.equilibrium import ClosureResponse
-from pipeline.physics.sliding.model import SlidingModel
+from pipeline.physics.sliding.model import SlidingModel, at_state
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
 from pipeline.physics.stability.growth_balance import Losses
@@ -181,8 +181,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = sliding_friction(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = Losses.of(model)
-    outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
+    losses = [Losses.of(at_state(model, k)) for k in range(len(models)) for _ in settings.speeds]
+    outcomes = context.map(partial(_operate, settings, law), list(zip(points, losses, strict=True)), "operating points")
     if has_full_matrices(structure, models[0][0], settings, context):
         outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, model.contact_body,
                            settings, context)
@@ -253,9 +253,9 @@ def _roots_over_friction(settings, task):
     return np.array(roots)
 
 
-def _operate(settings, law, losses, task):
+def _operate(settings, law, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
-    case, input_force = task
+    (case, input_force), losses = task
     sliding = case.seeking.slide(case.response(settings.centrifugal), input_force, *law, settings)
     model = sliding.about(case.bench.model)
     basis = _basis(model, settings)

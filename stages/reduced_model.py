@@ -15,7 +15,8 @@ from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Struc
 from pipeline.systems.fem_bodies import COLUMN, INPUTS, LINE, elastic_body, force_patterns, has_fluid, row_fields
 
 #: a system without linings
-NO_LINING = {"lining_coordinate": [], "lining_stiffness": np.empty((0, 0)), "lining_loss_factor": 0.0}
+NO_LINING = {"lining_coordinate": [], "lining_stiffness": np.empty((0, 0)), "lining_loss_factor": 0.0,
+             "lining_exponent": 0.0, "lining_pressure": 1.0}
 #: the tangential law of a system that has none: its friction comes from a map or from settings
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
 
@@ -67,7 +68,7 @@ def _from_solids(structure, settings, context):
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal", "loss")}
     rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
     parts = {"body_name": structure.body_name, "coordinate_body": np.repeat(np.arange(len(terms)), sizes), **matrices,
-             **rows, **_copied(structure), **_surfaces(terms, sizes), **_lining(bodies, terms)}
+             **rows, **_copied(structure), **_surfaces(terms, sizes), **_lining(structure, bodies, terms)}
     return ReducedModel(**(_with_fluid(parts, structure) if has_fluid(structure) else parts))
 
 
@@ -158,7 +159,7 @@ def _copied(structure):
     return {**constants, **{name: getattr(structure, name) for name in kept}}
 
 
-def _lining(bodies, terms):
+def _lining(structure, bodies, terms):
     """What scales with the moduli of the linings, in the coordinates of the bodies that have one."""
     lined, first = [b for b, t in enumerate(terms) if t.part is not None], np.cumsum([0, *(len(t.mass) for t in terms)])
     if not lined:
@@ -166,7 +167,8 @@ def _lining(bodies, terms):
     body = bodies[lined[0]]
     return {"lining_coordinate": np.concatenate([np.arange(first[b], first[b + 1]) for b in lined]),
             "lining_stiffness": scipy.linalg.block_diag(*(terms[b].part for b in lined)),
-            "lining_loss_factor": np.broadcast_to(body.loss_factor, len(body.density))[body.part[0]]}
+            "lining_loss_factor": np.broadcast_to(body.loss_factor, len(body.density))[body.part[0]],
+            **{name: getattr(structure, name, NO_LINING[name]) for name in ("lining_exponent", "lining_pressure")}}
 
 
 def _surfaces(terms, sizes):

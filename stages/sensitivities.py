@@ -13,6 +13,7 @@ from pipeline.case_models.sensitivity.few_coordinates import without_surface
 from pipeline.case_models.sensitivity.matrices import Case
 from pipeline.case_models.sensitivity.parameters import parameters
 from pipeline.contract import ConfigError, Context, Section, Variants, option, stage
+from pipeline.physics.sliding.model import at_state
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel, Sensitivities, Structure
 
 
@@ -95,7 +96,8 @@ def _chosen(modes, count):
 def _case(model, modes, points, operating):
     """(Case at an operating point, mean coefficient of friction there)."""
     state, speed = divmod(int(operating), len(points.speeds))
-    return Case(without_surface(model), state, points.speeds[speed]), float(modes.operating_friction[operating])
+    case = Case(without_surface(at_state(model, state)), state, points.speeds[speed])
+    return case, float(modes.operating_friction[operating])
 
 
 def _at_operating_point(model, structure, friction_map, modes, points, task):

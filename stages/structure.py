@@ -80,10 +80,11 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
 
     Method:
     Disc, pads, caliper, and bracket and piston where declared, were meshed with quadratic hexahedra (95 % of the
-    stiffness by 2 x 2 x 2 integration; linings at friction_map.bulk_temperature), unless they have the elements of a mesh file, whose unlike meshes are tied by
-    mortar springs; joints between bodies are springs and dampers. The disc is clamped where the bolts press it onto a
-    rigid hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
-    preload is static and frictionless. Real modes were computed below {frequency_max}.
+    stiffness by 2 x 2 x 2 integration), unless they have the elements of a mesh file, whose unlike meshes are tied by
+    mortar springs; linings have their moduli at friction_map.bulk_temperature, in the preload those at its pressure.
+    Joints between bodies are springs and dampers. The disc is clamped where the bolts press it onto a rigid hub. The
+    normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the preload is static
+    and frictionless. Real modes were computed below {frequency_max}.
     """
     brake = build(settings)
     said = (*notes(settings), *unread_springs(settings))
@@ -104,6 +105,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
         free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
+        lining_exponent=settings.pad.lining_pressure_exponent, lining_pressure=settings.pad.lining_pressure,
         piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake.fluid, settings.piston))
 
 
@@ -138,7 +140,20 @@ def _law(friction_map, settings):
 
 
 def _preload(brake, law, settings, context):
-    """Contact force, stiffness and status at every pressure."""
+    """Contact force, stiffness and status at every pressure, each with the linings as stiff as they are there."""
+    pad, condensed, preloads = settings.pad, {}, []
+    for pressure in settings.pressures:
+        times = float((pressure / pad.lining_pressure) ** pad.lining_pressure_exponent)
+        if times not in condensed:
+            condensed[times] = _condensed(brake if times == 1 else softened(brake, times), context.solver)
+        compliance, closure = condensed[times]
+        preloads.append(solve_preload(compliance, pressure * closure, brake.contacts.area, *law))
+    return {"pressure": settings.pressures, "preload": [f.force for f in preloads],
+            "contact_stiffness": [f.stiffness for f in preloads], "closed": [f.closed.astype(int) for f in preloads]}
+
+
+def _condensed(brake, solver):
+    """(compliance (c, c) m/N of the contacts, their closure (c,) m per Pa of the pistons) of a brake not in contact."""
     stiffness = scipy.sparse.block_diag([body.matrices()[0] for body in brake.bodies], format="csr")
     joints = brake.joints.rows.matrix
     stiffness = stiffness + joints.T @ scipy.sparse.diags(brake.joints.stiffness) @ joints
@@ -146,8 +161,4 @@ def _preload(brake, law, settings, context):
     free = np.concatenate([first + free_freedoms(len(b.mesh.node), b.supported)
                            for first, b in zip(sizes, brake.bodies, strict=False)])
     normal, piston = (rows.matrix[:, free] for rows in (brake.contacts.normal, brake.piston))
-    compliance, closure = condense(stiffness[free][:, free], normal, piston.toarray()[0] * brake.pad_area,
-                                   context.solver)
-    preloads = [solve_preload(compliance, p * closure, brake.contacts.area, *law) for p in settings.pressures]
-    return {"pressure": settings.pressures, "preload": [f.force for f in preloads],
-            "contact_stiffness": [f.stiffness for f in preloads], "closed": [f.closed.astype(int) for f in preloads]}
+    return condense(stiffness[free][:, free], normal, piston.toarray()[0] * brake.pad_area, solver)

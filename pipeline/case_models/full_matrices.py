@@ -58,6 +58,7 @@ def lacking_terms(structure, posed, settings):
                                         *(body.loss_factor for body in bodies)))
     reasons = {"effects of the case": bool(posed.terms),
                "damping ratios of bodies": any(body.damping_ratio > 0 for body in bodies),
+               "linings that stiffen with pressure": bool(getattr(structure, "lining_exponent", 0)),
                "viscous equivalents of loss factors": loses and not settings.hysteretic}
     return [reason for reason, holds in reasons.items() if holds]
 

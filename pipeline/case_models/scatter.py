@@ -16,7 +16,7 @@ import numpy as np
 
 from pipeline.case_models.steady_sliding import mapped_friction, stated_friction
 from pipeline.contract import ConfigError, Section, option
-from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.sliding.model import at_state, sliding_model
 from pipeline.physics.stability.scatter import Factors, Family, Pivot
 
 JOINTS, JOINT_LOSS, BODY_LOSS = "joint_stiffness", "joint_loss", "body_loss"
@@ -201,6 +201,7 @@ def stability_settings(modes):
 def family(model, state, friction_map, settings):
     """Family of the products ReducedModel, at one row of its preload, and FrictionMap, or None where friction is that
     of the ``settings``, as of ``stability_settings``."""
+    model = at_state(model, state)
     bare = replace(model, loss=0 * model.loss, joint_loss_factor=0 * model.joint_loss_factor)
     lining, lined = None, model.lining_coordinate
     if len(lined):

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=8)
+@product(version=9)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs to know of a sliding system.
 
@@ -28,6 +28,8 @@ class ReducedModel:
     lining_coordinate: Array = count("lining", "coordinates in which linings deform")
     lining_stiffness: Array = quantity("N/m", "lining lining_column", "the part of the stiffness that scales with the moduli of the linings")
     lining_loss_factor: Array = quantity("1", "", "loss factor of the linings, part of 'loss'; 0 without linings")
+    lining_exponent: Array = quantity("1", "", "n: that part times (p / lining_pressure)^n holds at a nominal pressure p")
+    lining_pressure: Array = quantity("Pa", "", "pressure at which 'stiffness' and 'loss' hold")
     joint_name: Array = text("joint", "joint names")
     joint_rows: Array = quantity("1", "joint coordinate", "joint elongation rows")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")

@@ -4,7 +4,7 @@ from pipeline.contract import Array, count, part, parts, product, quantity, text
 from pipeline.products.bodies import Body, Incidence
 
 
-@product(version=6)
+@product(version=7)
 class Structure:
     """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
 
@@ -14,6 +14,8 @@ class Structure:
     pad_inner: Body = part("pad with backplate on the piston side, z < 0")
     caliper: Body = part("caliper with fingers and cylinder")
     others: dict[str, Body] = parts("bracket and piston, where they are bodies")
+    lining_exponent: Array = quantity("1", "", "n: moduli of the linings over those of the bodies are (p / lining_pressure)^n at a nominal pressure p")
+    lining_pressure: Array = quantity("Pa", "", "pressure at which the linings have the moduli of the bodies")
     mesh_note: Array = text("note", "mesh files of the bodies: what they hold and was not read, where materials come from, their ties; none without a file")
     mesh_given: Array = text("given", "values that mesh files give and the case does not state, as in disc.young")
     free_frequency: Array = quantity("Hz", "free_mode", "natural frequencies of the free disc, without rigid-body motions")

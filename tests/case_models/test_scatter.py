@@ -1,5 +1,6 @@
 """Sources of scatter: what is refused, how they are drawn, what they change."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,7 +20,7 @@ from pipeline.case_models.scatter import (
     standard_deviation,
 )
 from pipeline.contract import ConfigError
-from tests.stages.small_brake import small_brake, small_map
+from tests.stages.small_brake import small_brake, small_map, stiffening_brake
 
 
 def sources(*given):
@@ -124,6 +125,17 @@ def test_without_a_friction_map_friction_is_that_of_the_settings_and_its_scatter
     np.testing.assert_allclose(state.speed_slope, -0.4 * np.exp(-speed / 0.5))
     settings.friction_at_rest = None
     np.testing.assert_allclose(family(small_brake(), 0, None, settings).friction(np.ones(2), speed).coefficient, 0.4)
+
+
+def test_linings_of_a_state_scatter_about_what_its_pressure_makes_them():
+    settings = SimpleNamespace(
+        speeds=[8.0], sliding_distance=0.01, damping_speed=1.0, friction=0.4, friction_at_rest=None, decay_speed=0.5,
+        friction_slopes=True, friction_damping=True, gyroscopic=True, centrifugal=True)
+    made, plain = (family(each, 1, None, settings) for each in
+                   (stiffening_brake(1.0), replace(stiffening_brake(np.sqrt(3.0)), lining_exponent=0.0)))
+    for name in ("lining", "loss"):
+        np.testing.assert_allclose(getattr(made, name), getattr(plain, name), rtol=1e-14)
+    np.testing.assert_allclose(made.model.stiffness, plain.model.stiffness, rtol=1e-14)
 
 
 def test_sources_of_the_program_fit_the_brake():

@@ -4,6 +4,8 @@ The pads lie at the top of the disc (angle 90 degrees), where sliding is along -
 z, tilt about the radial axis | inner pad likewise | caliper z.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from pipeline.products import FrictionMap, ReducedModel
@@ -37,6 +39,17 @@ def small_brake(abutment=3e6, finger=6e7, damping=2e-6):
         sensor_unit=["m/s"], sensor_gain=[1.0],
         sensor_position=[[0, RADIUS, 0]], sensor_direction=[[0, 0, 1]], sensor_rows=[np.eye(SIZE)[DISC]],
         visible_position=visible, visible_body=visible_body, visible_face=[[0, 1, 3, 2]], recovery=recovery)
+
+
+def stiffening_brake(times):
+    """The small brake with ``times`` the stiffness of linings in which pads open and turn; it grows as the root of the
+    pressure from the first state on."""
+    brake, lined, lining = small_brake(), np.array([3, 4, 7, 8]), times * np.diag([4e7, 3e3, 4e7, 3e3])
+    stiffness, loss = brake.stiffness.copy(), brake.loss.copy()
+    stiffness[np.ix_(lined, lined)] += lining
+    loss[np.ix_(lined, lined)] += 0.02 * lining
+    return replace(brake, stiffness=stiffness, loss=loss, lining_coordinate=lined, lining_stiffness=lining,
+                   lining_loss_factor=0.02, lining_exponent=0.5, lining_pressure=brake.pressure[0])
 
 
 def small_map():

@@ -25,8 +25,8 @@ def small_structure(pad_modulus=1e9, caliper_stiffness=3e7, modes_below=12e3):
     names, joints, piston = small_joints(meshes)
     area = np.full(len(pads), AREA)
     return Structure(
-        body_name=NAMES, **bodies, mesh_note=[], mesh_given=[], free_frequency=[1.0], free_diameters=[2],
-        free_out_of_plane=[1.0],
+        body_name=NAMES, **bodies, lining_exponent=0.0, lining_pressure=1e6, mesh_note=[], mesh_given=[],
+        free_frequency=[1.0], free_diameters=[2], free_out_of_plane=[1.0],
         joint_name=names, joint_rows=incidence(joints), joint_damping=np.full(len(names), 20.0),
         joint_loss_factor=np.zeros(len(names)),
         joint_stiffness=np.where(np.array(names) == "finger", caliper_stiffness, 1e7),

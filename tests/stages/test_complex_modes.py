@@ -324,6 +324,25 @@ def test_the_growth_rate_is_the_sum_of_what_friction_contacts_bodies_and_joints_
 
 
 @pytest.mark.exact
+def test_linings_are_as_stiff_as_the_pressure_of_each_state_makes_them(growing):
+    """At twice the pressure by the root of two: the modes of that brake, and their terms, which add up."""
+    lossy, settings, _ = growing
+    lined = np.flatnonzero(np.isin(lossy.coordinate_body, (1, 2)))
+    lining = np.zeros_like(lossy.stiffness)
+    lining[np.ix_(lined, lined)] = 0.5 * lossy.stiffness[np.ix_(lined, lined)]
+    stiffening = changed(lossy, lining_coordinate=lined, lining_stiffness=lining[np.ix_(lined, lined)],
+                         lining_loss_factor=1e-3, lining_exponent=0.5, lining_pressure=1e6)
+    stiffer = lossy.stiffness + (np.sqrt(2.0) - 1) * lining
+    made, *plain = (complex_modes(each, small_friction_map(), settings=settings)
+                    for each in (stiffening, lossy, changed(lossy, stiffness=stiffer, loss=1e-3 * stiffer)))
+    for pressure, other in zip((1e6, 2e6), plain, strict=True):
+        there, alike = made.operating_pressure == pressure, other.operating_pressure == pressure
+        np.testing.assert_allclose(made.operating_root[there], other.operating_root[alike], rtol=1e-9, atol=1e-6)
+    assert abs(made.operating_root[there] - plain[0].operating_root[alike]).max() > 100.0
+    np.testing.assert_allclose(made.unstable_growth.sum(axis=1), made.unstable_root.real, atol=1e-6)
+
+
+@pytest.mark.exact
 def test_the_viscous_equivalent_is_split_as_well(growing):
     lossy, settings, _ = growing
     viscous = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, hysteretic=False)

@@ -20,6 +20,9 @@ from tests.systems.test_disc_brake_bracket import BODIES
 
 pytestmark = pytest.mark.exact
 QUICK = {**COARSE, "frequency_max": "4 kHz", "free_frequency_max": "1 kHz", "pressures": ["1 MPa", "3 MPa"]}
+#: moduli of a lining
+MODULI = [f"lining_{kind}" for kind in ("young_radial", "young_tangential", "young_normal", "shear_normal",
+                                        "shear_in_plane")]
 
 
 def friction_map(stiffness=(5e11, 1e12, 1.4e12)):
@@ -141,10 +144,8 @@ def test_warm_linings_are_those_of_softer_moduli(brake):
         return structure(replace(friction_map(), bulk_temperature=200.0), changed,
                          context=Context(solver=available()[0]))
 
-    names = [f"lining_{kind}" for kind in ("young_radial", "young_tangential", "young_normal", "shear_normal",
-                                           "shear_in_plane")]
     pad = Settings(**QUICK).pad
-    softer = run(pad=pad.model_copy(update={name: 0.7 * getattr(pad, name) for name in names}))
+    softer = run(pad=pad.model_copy(update={name: 0.7 * getattr(pad, name) for name in MODULI}))
     warm = warmed(1.5e-3)
     for name in ("pad_outer", "pad_inner", "disc"):
         np.testing.assert_allclose(getattr(warm, name).frequency, getattr(softer, name).frequency, rtol=1e-9,
@@ -168,3 +169,14 @@ def test_a_fixed_caliper_presses_both_pads_alike():
     for pad in (1, 2):
         assert made.preload[0][made.contact_body == pad].sum() == pytest.approx(1e6 * made.piston_area, rel=1e-2)
     assert (made.others["piston"].frequency < 1).sum() == 24 and len(made.fluid_stiffness) == 1
+
+
+def test_linings_stiffen_with_pressure(brake):
+    """The preload at 3 MPa is that of moduli 3^n times as large, that at the pressure of their statement stays."""
+    pad = Settings(**QUICK).pad
+    made = run(pad=pad.model_copy(update={"lining_pressure_exponent": 0.4}))
+    stiffer = run(pad=pad.model_copy(update={name: 3**0.4 * getattr(pad, name) for name in MODULI}))
+    np.testing.assert_allclose(made.preload[0], brake.preload[0], rtol=1e-9)
+    np.testing.assert_allclose(made.preload[1], stiffer.preload[1], rtol=1e-9)
+    assert made.lining_exponent == 0.4 and made.lining_pressure == 1e6
+    assert np.abs(stiffer.preload[1] / brake.preload[1] - 1).max() > 1e-3

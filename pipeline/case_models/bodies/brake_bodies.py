@@ -77,6 +77,9 @@ class Pad(FromMesh):
     lining_shear_in_plane: Quantity("Pa", gt=0) = option("2.5 GPa", "in-plane shear modulus")
     lining_softening: Quantity("1/K", ge=0) = option("0 1/K", "share of its moduli that the lining loses per kelvin of"
                                                      " friction_map.bulk_temperature")
+    lining_pressure_exponent: float = option(0.0, "n: moduli of the lining grow as (p / lining_pressure)^n with the"
+                                             " nominal pressure p of the pads", ge=0, lt=1)
+    lining_pressure: Quantity("Pa", gt=0) = option("1 MPa", "pressure at which they are stated")
     lining_density: Quantity("kg/m^3", gt=0) = option("2600 kg/m^3", "density of the lining")
     backplate_young: Quantity("Pa", gt=0) = option("207 GPa", "Young's modulus of the backplate")
     backplate_poisson: float = option(0.29, "Poisson's ratio of the backplate", gt=-1, lt=0.5)

@@ -12,7 +12,7 @@ from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import Posed, Steady, posed, sliding_friction
 from pipeline.contract import ConfigError, ProductError
-from pipeline.physics.sliding.model import SlidingModel, spread
+from pipeline.physics.sliding.model import SlidingModel, at_state, spread
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.growth_balance import Losses
 
@@ -74,7 +74,7 @@ def sliding_at(modes, model, friction_map, effects, operating):
     case = posed(model, state, speed, settings.damping_speed, physics_terms(effects), conditions(effects))
     sliding = case.seeking.slide(case.response(settings.centrifugal), model.pressure[state] * model.input_area,
                                  *sliding_friction(friction_map, model, settings), settings)
-    return SlidingState(case, sliding, settings, sliding.about(case.bench.model), Losses.of(model))
+    return SlidingState(case, sliding, settings, sliding.about(case.bench.model), Losses.of(at_state(model, state)))
 
 
 def sliding_state(modes, model, friction_map, effects, operating):

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.case_models.sensitivity.bodies import body_parameters
+from pipeline.physics.sliding.model import at_pressure
 
 #: joints of a brake by name -> their setting, the first that fits; PISTON is the spring of the piston on its backplate
 PISTON = "piston_normal_*"
@@ -52,7 +53,8 @@ def parameters(case, structure, friction, points):
         Parameter("contact_stiffness", 1.0, "1", 1.0, "contact_stiffness", partial(_scaled, "contact_stiffness")),
         Parameter("complex_modes.damping_speed", points.damping_speed, "m/s", points.damping_speed, "damping_speed",
                   partial(_scaled, "damping_speed")),
-        *((Parameter("structure.pressures", pressure, "Pa", pressure, "", _loaded),) if len(model.law_closure) else ()),
+        *((Parameter("structure.pressures", pressure, "Pa", pressure, "", _loaded, bool(model.lining_exponent)),)
+          if len(model.law_closure) else ()),
         Parameter("complex_modes.speeds", case.speed, "rad/s", case.speed, "", _faster)]
     found += _springs(model) + _joint_losses(model)
     bodies = [] if structure is None else body_parameters(model, structure)
@@ -68,7 +70,11 @@ def _scaled(field, case, step):
 
 
 def _loaded(case, step):
-    return replace(case, load=case.load * (1 + step))
+    """Under more load; linings that pressure stiffens are stiffer, too."""
+    model = case.model
+    if model.lining_exponent:
+        model = at_pressure(model, (1 + step) * model.lining_pressure)
+    return replace(case, load=case.load * (1 + step), model=replace(model, lining_pressure=case.model.lining_pressure))
 
 
 def _faster(case, step):

@@ -236,6 +236,7 @@ def sliding_model(reduced, state, speed):
     radius 1 m. Loss factors join the damping of the bodies, by the real modes of that state (see
     ``structural_damping``).
     """
+    reduced = at_state(reduced, state)
     joints = Joints(tuple(reduced.joint_name), reduced.joint_rows, reduced.joint_stiffness, reduced.joint_damping)
     loss = loss_stiffness(reduced)
     contacts = Contacts(
@@ -255,6 +256,23 @@ def sliding_model(reduced, state, speed):
         return model
     mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
     return replace(model, damping=model.damping + equivalent_damping(loss, stiffness, mass))
+
+
+def at_state(reduced, state):
+    """A product ReducedModel, or any object with its fields, with linings as stiff as at a row of its preload table;
+    itself where pressure does not stiffen them."""
+    return at_pressure(reduced, reduced.pressure[state]) if reduced.lining_exponent else reduced
+
+
+def at_pressure(reduced, pressure):
+    """The same at a nominal ``pressure`` Pa, which is that of its stiffness then."""
+    times = (pressure / reduced.lining_pressure) ** reduced.lining_exponent
+    at = np.ix_(reduced.lining_coordinate, reduced.lining_coordinate)
+    stiffness, loss = reduced.stiffness.copy(), reduced.loss.copy()
+    stiffness[at] += (times - 1.0) * reduced.lining_stiffness
+    loss[at] += (times - 1.0) * reduced.lining_loss_factor * reduced.lining_stiffness
+    return replace(reduced, stiffness=stiffness, loss=loss, lining_stiffness=times * reduced.lining_stiffness,
+                   lining_pressure=np.asarray(pressure, float))
 
 
 def loss_stiffness(reduced):

@@ -1,5 +1,7 @@
 """Derivatives of a growing mode of a small brake to its values, beside central differences of its root."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -30,9 +32,45 @@ def test_every_value_within_five_percent_of_differences():
         mode = polished_root(matrices(case, law, points), start)
         assert mode.root == pytest.approx(start, rel=1e-8)
         for each in found:
-            ends = [matrices(each.changed(case, side * STEP), law, points) for side in (-1, 1)]
-            change = mode.change([(b - a) / (2 * STEP) for a, b in zip(*ends, strict=True)])
-            roots = [polished_root(m, mode.root + s * STEP * change).root for m, s in zip(ends, (-1, 1), strict=True)]
-            expected = (roots[1] - roots[0]) / (2 * STEP)
-            for part in (np.real, np.imag):
-                assert part(change) == pytest.approx(part(expected), rel=0.05, abs=1e-6), each.name
+            compared(each, case, mode, law, points)
+
+
+def compared(value, case, mode, law, points):
+    """Derivative of a RootWithVectors to a Parameter, which central differences must confirm."""
+    ends = [matrices(value.changed(case, side * STEP), law, points) for side in (-1, 1)]
+    change = mode.change([(b - a) / (2 * STEP) for a, b in zip(*ends, strict=True)])
+    roots = [polished_root(m, mode.root + s * STEP * change).root for m, s in zip(ends, (-1, 1), strict=True)]
+    expected = (roots[1] - roots[0]) / (2 * STEP)
+    for part in (np.real, np.imag):
+        assert part(change) == pytest.approx(part(expected), rel=0.05, abs=1e-6), value.name
+    return change
+
+
+def test_pressure_acts_through_linings_that_it_stiffens():
+    """Half the stiffness of the pads is that of linings: the change is the one of the load and that of their moduli."""
+    structure, law = small_structure(), small_friction_map(0.6)
+    model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
+    lined = np.flatnonzero(np.isin(model.coordinate_body, (1, 2)))
+    model = replace(model, lining_coordinate=lined, lining_stiffness=0.5 * model.stiffness[np.ix_(lined, lined)])
+    modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz",
+                                                     followed=0))
+    points = stability_settings(modes)
+    state = int(modes.unstable_operating[0])
+    changes = []
+    for exponent in (0.0, 0.5):
+        stiffening = replace(model, lining_exponent=exponent, lining_pressure=model.pressure[state])
+        case = Case(stiffening, state, points.speeds[0])
+        mode = polished_root(matrices(case, law, points), modes.unstable_reduced[0])
+        named = {each.name: each for each in parameters(case, structure, mean_friction(case, law, points), points)}
+        changes.append(compared(named["structure.pressures"], case, mode, law, points))
+        assert named["structure.pressures"].of_bodies == (exponent > 0)
+    lining = replace(case, model=replace(model, stiffness=model.stiffness + STEP * _spread(model)))
+    moved = polished_root(matrices(lining, law, points), mode.root).root - mode.root
+    assert changes[1] - changes[0] == pytest.approx(0.5 * moved / STEP, rel=0.05)
+
+
+def _spread(model):
+    """Stiffness (n, n) of the linings of a product ReducedModel."""
+    lining = np.zeros_like(model.stiffness)
+    lining[np.ix_(model.lining_coordinate, model.lining_coordinate)] = model.lining_stiffness
+    return lining

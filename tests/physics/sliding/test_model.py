@@ -7,7 +7,8 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
-from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
+from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel, sliding_model
+from tests.stages.small_brake import small_brake, stiffening_brake
 
 
 def two_masses(speed=2.0, preload=50.0, damping=0.0):
@@ -146,3 +147,15 @@ def arrays(thing):
             yield from arrays(value)
         elif isinstance(value, np.ndarray):
             yield value
+
+
+@pytest.mark.exact
+def test_linings_stiffen_with_the_pressure_of_a_state():
+    """At three times the pressure by the root of three, with what they lose; a state at their own pressure stays."""
+    stiffening, stiffer = stiffening_brake(1.0), stiffening_brake(np.sqrt(3.0))
+    for state, expected in ((0, replace(stiffening, lining_exponent=0.0)), (1, replace(stiffer, lining_exponent=0.0))):
+        made, plain = (sliding_model(each, state, 10.0) for each in (stiffening, expected))
+        np.testing.assert_allclose(made.stiffness, plain.stiffness, rtol=1e-14)
+        np.testing.assert_allclose(made.damping, plain.damping, rtol=1e-12, atol=1e-9)
+    assert np.abs(sliding_model(stiffening, 1, 10.0).damping - sliding_model(stiffening, 0, 10.0).damping).max() > 1e-3
+    assert small_brake().lining_exponent == 0
