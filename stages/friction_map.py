@@ -32,7 +32,7 @@ class Settings(Section):
 
 def companions(product, case=None):
     """The map at its refined points in SI units: as CSV, and as the tables that Abaqus, Adams and FMUs read. Abaqus'
-    has the temperatures, where there are some; the others are those of reference."""
+    has the temperatures, where there are some; the others are at bulk_temperature."""
     axes, warm = (product.pressure, product.speed, product.distance), product.over_temperature.get("bodies")
     return {"friction_map.csv": table_formats.as_csv(*axes, product.friction, product.friction_std),
             "friction_map.inp": table_formats.as_abaqus(*axes, product.friction, warm),
@@ -41,8 +41,12 @@ def companions(product, case=None):
 
 
 def _check(sections):
-    """A law is fitted by weight of errors, which nothing tells of one pair of surfaces at one position."""
+    """A law is fitted by weight of errors, which nothing tells of one pair of surfaces at one position; something is
+    left of the shear limit at every temperature."""
     surface, micro, order = sections.get("surface"), sections.get("micro_friction"), sections["friction_map"].order
+    if micro is not None:
+        for name in ("bulk_temperature", "bulk_temperatures"):
+            _refuse_melting(micro.softening, np.max(getattr(sections["friction_map"], name) or 0.0), name)
     if None not in (surface, micro, order) and surface.pairs * micro.realisations < 2:
         raise ConfigError("friction_map.order", "none, or two or more surface.pairs or micro_friction.realisations",
                           f"order {order} of one pair at one position", "its standard errors weigh the points")
@@ -85,12 +89,16 @@ def _warmth(computed, rise, where):
     Friction goes with the shear limit, which bulk and flash heat soften, and flash heat with friction.
     """
     softening = restored(MicroSettings, computed.settings.item()).softening
-    if softening * rise >= 1.0:
-        raise ConfigError(f"friction_map.{where}", f"less than {1 / softening:.4g} K, where nothing is left of the"
-                          " shear limit", f"{rise:g} K", "lower micro_friction.softening")
+    _refuse_melting(softening, rise, where)
     cold = 1.0 - softening * computed.flash_temperature                     # limit over that without any flash
     heating = softening * computed.flash_temperature / cold
     return (1 - softening * rise) / (1 + heating * (1 - softening * rise)) / cold
+
+
+def _refuse_melting(softening, rise, where):
+    if softening * rise >= 1.0:
+        raise ConfigError(f"friction_map.{where}", f"less than {1 / softening:.4g} K, where nothing is left of the"
+                          " shear limit", f"{rise:g} K", "lower micro_friction.softening")
 
 
 def _at_temperature(computed, rise):

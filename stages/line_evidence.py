@@ -82,6 +82,9 @@ def _check(sections):
     if settings.cycle is not None and not settings.cycle.low < settings.cycle.high:
         raise ConfigError("line_evidence.cycle.high", f"more than low, {settings.cycle.low:g} Pa",
                           f"{settings.cycle.high:g} Pa")
+    if settings.cycle is not None and "friction_map" in sections and sections["friction_map"].bulk_temperature:
+        raise ConfigError("line_evidence.cycle", "friction_map.bulk_temperature: 0 K beside it, as the cycle fades"
+                          " friction by a temperature of its own", f"{sections['friction_map'].bulk_temperature:g} K")
     if (settings.runs or "noise_events" in sections) and any(h.load_rate for h in settings.hypotheses.values()):
         raise ConfigError("line_evidence.hypotheses", "no load_rate, as every run of line_evidence.runs has one load",
                           "a changing load")

@@ -25,6 +25,8 @@ _ANYWHERE = 0.5
 #: values whose joint only some brakes have, and the section that has to be a body
 _ONLY_WITH = {"joints.mount_stiffness": "bracket", "joints.shim_stiffness": "piston",
               "joints.seal_stiffness": "piston"}
+#: values whose joint only a fixed, or only a floating caliper has
+_FIXED, _FLOATING = ("joints.bolt_",), ("joints.guide_pin_", "joints.finger_")
 
 
 class Settings(Section):
@@ -62,6 +64,9 @@ def stated(given):
     if not any(part is None or name.startswith(f"{part}.") for name in values):
         raise ConfigError(f"{where}.values", f"values of {part or 'bodies and joints'} that may be off, such as"
                           f" {part or 'disc'}.young: {{spread: 0.05}}", "none")
+    if settings.pad.lining_pressure_exponent:
+        raise ConfigError(f"{where}.pad.lining_pressure_exponent", "0: an update finds the moduli at the pressure of"
+                          " its test", f"{settings.pad.lining_pressure_exponent:g}", "state it in the case of a brake")
     if part is None:
         _refuse_lacking(settings, values, where)
     refuse_unplaced(settings.points, (part,) if part else body_names(settings), where)
@@ -70,10 +75,12 @@ def stated(given):
 def _refuse_lacking(settings, values, where):
     """Refuse values of joints that the assembled brake does not have, and a test without points."""
     lacking = [name for name in values if (kind := _ONLY_WITH.get(name)) and getattr(settings, kind).kind != "body"]
+    lacking += [name for name in values if name.startswith(_FLOATING if settings.caliper.fixed else _FIXED)]
     lacking += [name for name in values if name.startswith("pressed.") and not settings.pressed.force]
     if lacking:
-        raise ConfigError(f"{where}.values", "joints that this brake has: bracket and piston as bodies, pads pressed"
-                          " by a force", ", ".join(lacking), "state what they belong to, or leave them out")
+        raise ConfigError(f"{where}.values", "joints that this brake has: bracket and piston as bodies, a fixed or"
+                          " floating caliper, pads pressed by a force", ", ".join(lacking),
+                          "state what they belong to, or leave them out")
     if not settings.points:
         raise ConfigError(f"{where}.points", "points of the test with the bodies that they lie on: modes of an assembly"
                           " are too close to be paired by frequency alone", "none")

@@ -25,7 +25,7 @@ from pipeline.products import Effects, FrictionMap, Multibody, ReducedModel
 
 DISC = "disc"
 #: joints that carry the caliper and those that guide the pads, by a part of their names
-CALIPER, ABUTMENT = ("guide_pin", "finger", "piston"), ("abutment",)
+CALIPER, ABUTMENT = ("guide_pin", "bolt", "finger", "piston"), ("abutment",)
 #: largest angle in rad that a kept mode turns per step: the trapezoidal rule then lowers its frequency by 1.3 %
 LARGEST_ANGLE = 0.4
 INTEGRATORS = {"exudyn": exudyn_model.integrate, "newmark": newmark.integrate}

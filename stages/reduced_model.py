@@ -12,7 +12,7 @@ import scipy
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.reduction.body import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
-from pipeline.systems.fem_bodies import COLUMN, INPUTS, LINE, elastic_body, force_patterns, has_fluid, row_fields
+from pipeline.systems.fem_bodies import INPUTS, LINE, columns_of, elastic_body, force_patterns, has_fluid, row_fields
 
 #: a system without linings
 NO_LINING = {"lining_coordinate": [], "lining_stiffness": np.empty((0, 0)), "lining_loss_factor": 0.0,
@@ -73,28 +73,30 @@ def _from_solids(structure, settings, context):
 
 
 def _with_fluid(parts, structure):
-    """The fields ``parts`` of a ReducedModel with the fluid of the line, a mass on which the column in the bore ends.
+    """The fields ``parts`` of a ReducedModel with the fluid of the lines, masses on which the columns in the bores end.
 
-    The mass is free but for that spring, so that it takes no static load (see ``disc_brake_piston``).
+    A mass is free but for that spring, so that it takes no static load (see ``disc_brake_piston``).
     """
     beside = {"mass": structure.line_inertia, "damping": structure.line_drag}
-    none = np.zeros(1)
+    count = len(structure.line_inertia)
+    none = np.zeros(count)
     matrices = {name: scipy.linalg.block_diag(parts[name], np.diag(beside.get(name, none)))
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal", "loss")}
-    rows = {name: _widened(parts[name]) for name in ("joint_rows", "contact_normal", "contact_tangent",
+    rows = {name: _widened(parts[name], count) for name in ("joint_rows", "contact_normal", "contact_tangent",
                                                      "contact_lateral", "input_rows", "sensor_rows", "recovery")}
-    column = np.append(parts["input_rows"], -1.0)
+    columns = np.hstack((parts["input_rows"], -np.eye(count)))
     return {**parts, **matrices, **rows, "body_name": [*parts["body_name"], LINE],
-            "coordinate_body": np.append(parts["coordinate_body"], len(parts["body_name"])),
-            "joint_name": [*parts["joint_name"], COLUMN], "joint_rows": np.vstack((rows["joint_rows"], column)),
+            "coordinate_body": np.append(parts["coordinate_body"], np.full(count, len(parts["body_name"]))),
+            "joint_name": [*parts["joint_name"], *columns_of(count)],
+            "joint_rows": np.vstack((rows["joint_rows"], columns)),
             "joint_stiffness": np.append(parts["joint_stiffness"], structure.fluid_stiffness),
-            "joint_damping": np.append(parts["joint_damping"], 0.0),
+            "joint_damping": np.append(parts["joint_damping"], none),
             "joint_loss_factor": np.append(parts["joint_loss_factor"], structure.fluid_loss_factor)}
 
 
-def _widened(rows):
-    """``rows`` with a coordinate that they do not see."""
-    return np.concatenate((rows, np.zeros((*rows.shape[:-1], 1), rows.dtype)), axis=-1)
+def _widened(rows, count):
+    """``rows`` with ``count`` coordinates that they do not see."""
+    return np.concatenate((rows, np.zeros((*rows.shape[:-1], count), rows.dtype)), axis=-1)
 
 
 def _from_beams(beams, settings, context):

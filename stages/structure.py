@@ -9,7 +9,7 @@ import scipy
 from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
 from pipeline.case_models.bodies.brake_joints import Joints
 from pipeline.case_models.bodies.mesh_files import BODIES, Units, with_deck
-from pipeline.contract import Context, InputFile, Names, Quantities, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, InputFile, Names, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
 from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
@@ -17,6 +17,7 @@ from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import build, moduli_left, softened
 from pipeline.systems.disc_brake_checks import refuse_unfit
+from pipeline.systems.disc_brake_piston import refuse_unfit_piston
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 from pipeline.systems.mesh_files.bodies import from_files, given, notes
 from pipeline.systems.mesh_files.springs import unread_springs
@@ -66,12 +67,29 @@ class Settings(Section):
 
 def _check(sections):
     """Refuse dimensions that do not fit, and a mesh file that the brake cannot be built with, before all else."""
-    settings, warm = sections["structure"], sections.get("friction_map")
+    settings = sections["structure"]
     refuse_unfit(settings)
-    if warm is not None:
-        moduli_left(settings.pad.lining_softening, warm.bulk_temperature)
+    _refuse_linings(settings.pad, sections)
     if settings.disc.mount_group or from_files(settings):
         build(settings)
+    elif settings.piston.kind == "body":
+        refuse_unfit_piston(settings)
+
+
+def _refuse_linings(pad, sections):
+    """Refuse linings that melt, and those that pressure stiffens where other stages would not see it."""
+    if "friction_map" in sections:
+        moduli_left(pad.lining_softening, sections["friction_map"].bulk_temperature)
+    if not pad.lining_pressure_exponent:
+        return
+    where = "structure.pad.lining_pressure_exponent"
+    if pad.damping_ratio:
+        raise ConfigError(where, "structure.pad.damping_ratio: 0 beside it, as a ratio is that of the modes of one"
+                          " stiffness", f"{pad.damping_ratio:g}", "state structure.pad.lining_loss_factor instead")
+    blind = [name for name in ("multibody", "noise_matrix", "line_evidence") if name in sections]
+    if blind:
+        raise ConfigError(where, f"0 in a chain with {', '.join(blind)}, whose pressures are not those of the preload",
+                          f"{pad.lining_pressure_exponent:g}", "state the moduli at the pressure in question")
 
 
 @stage(check=_check)
@@ -106,15 +124,17 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
         lining_exponent=settings.pad.lining_pressure_exponent, lining_pressure=settings.pad.lining_pressure,
-        piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake.fluid, settings.piston))
+        piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake, settings.piston))
 
 
-def _fluid(column, piston):
-    """Fields of the fluid column behind a piston body; empty without one."""
+def _fluid(brake, piston):
+    """Fields of the fluid behind piston bodies, a column for each row of the pistons; empty without one."""
+    column, count = brake.fluid, brake.piston.matrix.shape[0]
     if column is None:
         return {name: [] for name in ("fluid_stiffness", "fluid_loss_factor", "line_inertia", "line_drag")}
-    return {"fluid_stiffness": [column.stiffness], "fluid_loss_factor": [piston.fluid.loss_factor],
-            "line_inertia": [column.inertia], "line_drag": [column.drag]}
+    each = {"fluid_stiffness": column.stiffness, "fluid_loss_factor": piston.fluid.loss_factor,
+            "line_inertia": column.inertia, "line_drag": column.drag}
+    return {name: np.full(count, value) for name, value in each.items()}
 
 
 def _all_modes(brake, settings, context):
@@ -161,4 +181,4 @@ def _condensed(brake, solver):
     free = np.concatenate([first + free_freedoms(len(b.mesh.node), b.supported)
                            for first, b in zip(sizes, brake.bodies, strict=False)])
     normal, piston = (rows.matrix[:, free] for rows in (brake.contacts.normal, brake.piston))
-    return condense(stiffness[free][:, free], normal, piston.toarray()[0] * brake.pad_area, solver)
+    return condense(stiffness[free][:, free], normal, piston.toarray().sum(axis=0) * brake.pad_area, solver)

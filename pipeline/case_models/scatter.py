@@ -82,10 +82,10 @@ def fitting(sources, model):
     """The ``sources``; where these are those of the program, without joints that the brake of a product ReducedModel
     lacks, as fingers of a fixed caliper; the bolts of such a caliper scatter as guide pins do."""
     parts = [source.part for source in sources if source.kind == JOINTS]
-    there = {part: any(part in str(name) for name in model.joint_name) for part in (*filter(None, parts), "mount")}
+    there = {part: any(part in str(name) for name in model.joint_name) for part in (*filter(None, parts), "bolt")}
     if tuple(sources) != tuple(Source(**each) for each in DEFAULT) or not any(there[part] for part in parts):
         return sources
-    stands_for = {"guide_pin": "mount"} if there["mount"] and not there["guide_pin"] else {}
+    stands_for = {"guide_pin": "bolt"} if there["bolt"] else {}
     found = [source.model_copy(update={"part": stands_for.get(source.part, source.part)}) for source in sources]
     return tuple(source for source in found if source.kind != JOINTS or there[source.part])
 

@@ -29,7 +29,8 @@ from pipeline.systems.solids import Assembly, Rows, Solid
 
 @dataclass(frozen=True)
 class DiscBrake(Assembly):
-    """Bodies with their names, the row on which the piston force acts, the area of a pad, and the fluid if any."""
+    """Bodies with their names, a row for each pad that pistons press, the area of a pad, and the fluid behind those of
+    one pad if any."""
 
     names: tuple
     piston: Rows

@@ -32,7 +32,7 @@ from pipeline.systems.mesh_files.springs import deck_springs
 from pipeline.systems.solids import Joints, Rows
 
 _AXES = {"radial": 0, "tangential": 1, "axial": 2}
-_KINDS = ("abutment", "finger", "piston", "guide_pin", "mount", "seal")
+_KINDS = ("abutment", "finger", "piston", "guide_pin", "bolt", "mount", "seal")
 #: points per direction that sample a spot
 _SPOT_POINTS = 5
 #: spots of the piston's rim, half the angle of one, and the share of the wall that its points leave out on both sides
@@ -67,7 +67,7 @@ def _supports(meshes, parameters):
     """Springs of guide pins, and of the ends of both pads in their abutments, end by end."""
     j, springs = parameters.joints, []
     for end, sign in (("leading", -1), ("trailing", 1)):
-        if ("mount" if parameters.caliper.fixed else "guide_pin") not in j.left_out:
+        if ("bolt" if parameters.caliper.fixed else "guide_pin") not in j.left_out:
             springs += _guide_pin(meshes, parameters, end, sign)
         for name, pad in (("outer", OUTER), ("inner", INNER)) if "abutment" not in j.left_out else ():
             spot, guide = _backplate_end(meshes, parameters, pad, sign)
@@ -105,20 +105,20 @@ def _kind(name):
 
 
 def piston_rows(meshes, parameters):
-    """One row: mean distance of pistons and cylinder floors; a unit force pushes the inner pad onto the disc.
+    """A row for each pad that pistons press: mean distance of pistons and cylinder floors, or without a piston body of
+    backplate and cylinder; a unit force pushes the pad onto the disc."""
+    return stacked([_piston_row(meshes, parameters, pad) for pad in _pressed_pads(parameters)])
 
-    Without a piston body it is that of inner backplate and cylinder. Of a fixed caliper it is that on the inner side
-    plus that on the outer one: the force pushes both pads.
-    """
-    rows = []
-    for pad in _pressed_pads(parameters):
-        if parameters.piston.kind == "body":
-            pairs = [_pressed(meshes, parameters, -1 if pad == INNER else 1)]
-        else:
-            pairs = [(spot, other) for _, spot, other in _clamping_spots(meshes, parameters, "piston", pad)]
-        share = (1 if pad == INNER else -1) / len(pairs)
-        rows += [[share * part for part in _relative(meshes, *pair, 2)] for pair in pairs]
-    return Rows(tuple(scipy.sparse.csr_matrix(sum(parts)) for parts in zip(*rows, strict=True)))
+
+def _piston_row(meshes, parameters, pad):
+    """[(1, 3 nodes) sparse] of every body: the row of a ``pad``."""
+    if parameters.piston.kind == "body":
+        pairs = [_pressed(meshes, parameters, -1 if pad == INNER else 1)]
+    else:
+        pairs = [(spot, other) for _, spot, other in _clamping_spots(meshes, parameters, "piston", pad)]
+    sign = 1 if pad == INNER else -1
+    relative = [_relative(meshes, *pair, 2) for pair in pairs]
+    return [scipy.sparse.csr_matrix(sign * sum(parts) / len(pairs)) for parts in zip(*relative, strict=True)]
 
 
 def _clamped(prefix, normal, shear, places):
@@ -137,8 +137,8 @@ def _guide_pin(meshes, parameters, end, sign):
     if on_bracket := parameters.bracket.kind == "body":
         beside = min(parameters.bracket.column_height + front, c.housing_depth)
         depths = {name: share * beside for name, share in _PIN_DEPTHS.items()}
-    pins, part = [], "mount" if c.fixed else "guide_pin"
-    along, across = (j.mount_stiffness,) * 2 if c.fixed else (j.guide_pin_axial_stiffness, j.guide_pin_stiffness)
+    pins, part = [], "bolt" if c.fixed else "guide_pin"
+    along, across = (j.bolt_stiffness,) * 2 if c.fixed else (j.guide_pin_axial_stiffness, j.guide_pin_stiffness)
     for end_name, depth in depths.items():
         where = j.guide_pin_radius, front - depth, j.spot_size
         name = f"{part}_{end}_{end_name}"

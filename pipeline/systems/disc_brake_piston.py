@@ -1,7 +1,7 @@
 """Pistons of the disc brake in their bores, and the brake fluid behind them.
 
 One or two stand beside one another under the inner pad, and as many over the outer one in a fixed caliper; all of them
-are one body of several parts. What is said of one is that in the middle under the inner pad, and turned to its Place.
+are one body of several parts. Dimensions are those of one in the middle of the inner pad, then moved to its Place.
 
 The piston is a cup of steel whose rim bears on the inner backplate and whose crown closes the bore of the housing. It
 is meshed, because a cup is no rigid body here: its rim turns oval at a few kHz. The mesh of revolution needs a hole in
@@ -22,8 +22,9 @@ coordinate, an ordinary mass, thus does both in every analysis alike. Above its 
 the line is rather a waveguide of impedance A^2 rho v / a (v the speed of sound) than a mass; it stays far above
 k / omega, so that x_l is at rest with either.
 
-Bores of several pistons are joined: A is the area of those on one pad, V that of all, x the mean motion of those under
-the inner pad plus, in a fixed caliper, that of those over the outer one.
+Bores of twin pistons are joined: A is their area, x their mean motion. The two sides of a fixed caliper have a column
+and a line each: what joins them, a pipe or a bore across the disc, has the inertia of a line as well, and lets as
+little flow.
 """
 
 from dataclasses import dataclass
@@ -36,6 +37,8 @@ from pipeline.physics.fem.mesh import Mesh, divided, revolve
 from pipeline.systems.disc_brake_rows import pad_height
 from pipeline.systems.solids import Solid
 
+#: least wall between two bores, m
+_WALL = 2e-3
 #: radius of the hole in the crown that the mesh needs, as a share of that of the piston
 _HOLE = 0.1
 
@@ -76,7 +79,7 @@ def places(parameters):
 
 def piston(parameters):
     """Solid of ``parameters.piston`` between housing and backplates. Raises ConfigError where it does not fit."""
-    _check(parameters)
+    refuse_unfit_piston(parameters)
     p = parameters.piston
     radius = divided((_HOLE * p.diameter / 2, p.diameter / 2 - p.wall, p.diameter / 2), p.element_size)
     height = divided((-p.length, p.crown - p.length, 0.0), p.element_size)
@@ -116,13 +119,13 @@ def bore_radius(parameters):
 
 
 def fluid_column(parameters):
-    """FluidColumn of the fluid behind the pistons of ``parameters``; None without a piston."""
+    """FluidColumn of the fluid behind the pistons on one pad of ``parameters``; None without a piston."""
     p = parameters.piston
     if p.kind != "body":
         return None
     f = p.fluid
     area, line = p.count * np.pi * p.diameter**2 / 4, np.pi * f.line_diameter**2 / 4
-    volume = (1 + parameters.caliper.fixed) * area * column_length(parameters) + f.passage_volume
+    volume = area * column_length(parameters) + f.passage_volume
     return FluidColumn(float(f.bulk_modulus * area**2 / volume), float(f.density * f.line_length * area**2 / line),
                        float(128 * f.viscosity * f.line_length * area**2 / (np.pi * f.line_diameter**4)))
 
@@ -132,11 +135,12 @@ def column_length(parameters):
     return parameters.piston.bore_depth + parameters.caliper.piston_gap - parameters.piston.length
 
 
-def _check(parameters):
+def refuse_unfit_piston(parameters):
+    """ConfigError for a meshed piston whose dimensions do not fit those of pads and caliper."""
     p, c, pad, middle = parameters.piston, parameters.caliper, parameters.pad, parameters.joints.clamping_radius
     rim, reach = p.diameter / 2, bore_radius(parameters)
     half, off = np.arcsin(reach / middle), _off_middle(parameters) if p.count == 2 else 0.0
-    end = half + off
+    end, across = half + off, "spacing" if p.count == 2 else "diameter"
     rules = (
         (p.wall < (1 - _HOLE) * rim, "wall", f"a wall thinner than {(1 - _HOLE) * rim:g} m", f"{p.wall:g} m"),
         (p.crown < p.length, "crown", f"a crown thinner than the piston is long, {p.length:g} m", f"{p.crown:g} m"),
@@ -146,9 +150,10 @@ def _check(parameters):
         (c.inner_radius < middle - reach and middle + reach < c.bridge_inner_radius, "diameter",
          f"a bore in the housing, {c.inner_radius:g} to {c.bridge_inner_radius:g} m",
          f"{middle - reach:g} to {middle + reach:g} m"),
-        (p.count == 1 or half < off, "spacing", f"bores apart, {2 * half * middle:.4g} m or more", f"{p.spacing:g} m"),
-        (end < c.angle / 2, "diameter", f"a bore within the caliper, {c.angle / 2:.4g} rad", f"{end:.4g} rad"),
-        (off + np.arcsin(rim / middle) < pad.angle / 2, "spacing", f"rims on the backplate, within {pad.angle / 2:.4g}"
+        (p.count == 1 or half + _WALL / middle / 2 < off, "spacing", f"bores {_WALL:g} m apart,"
+         f" {2 * half * middle + _WALL:.4g} m or more", f"{p.spacing:g} m"),
+        (end < c.angle / 2, across, f"a bore within the caliper, {c.angle / 2:.4g} rad", f"{end:.4g} rad"),
+        (off + np.arcsin(rim / middle) < pad.angle / 2, across, f"rims on the backplate, within {pad.angle / 2:.4g}"
          " rad", f"{off + np.arcsin(rim / middle):.4g} rad"),
         (p.bore_depth < c.housing_depth, "bore_depth", f"a floor in the housing, above {c.housing_depth:g} m",
          f"{p.bore_depth:g} m"),

@@ -146,25 +146,31 @@ def has_fluid(system):
 
 
 def _with_fluid(model, structure):
-    """A sparse SlidingModel with the fluid of the line, a mass on which the column in the bore ends."""
-    beside = {"mass": structure.line_inertia, "damping": structure.line_drag}
-    matrices = {name: scipy.sparse.block_diag([getattr(model, name), np.diag(beside.get(name, np.zeros(1)))], "csr")
+    """A sparse SlidingModel with the fluid of the lines, masses on which the columns in the bores end."""
+    beside, count = {"mass": structure.line_inertia, "damping": structure.line_drag}, len(structure.line_inertia)
+    matrices = {name: scipy.sparse.block_diag([getattr(model, name), np.diag(beside.get(name, np.zeros(count)))], "csr")
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
-    contacts = replace(model.contacts, **{name: _widened(getattr(model.contacts, name))
+    contacts = replace(model.contacts, **{name: _widened(getattr(model.contacts, name), count)
                                           for name in ("normal", "tangent", "lateral")})
-    column = scipy.sparse.hstack([model.input_rows, [[-1.0]]])
-    joints = Joints((*model.joints.name, COLUMN), scipy.sparse.vstack([_widened(model.joints.rows), column], "csr"),
+    columns = scipy.sparse.hstack([model.input_rows, -np.eye(count)])
+    joints = Joints((*model.joints.name, *columns_of(count)),
+                    scipy.sparse.vstack([_widened(model.joints.rows, count), columns], "csr"),
                     np.append(model.joints.stiffness,
                               structure.fluid_stiffness * (1 + 1j * structure.fluid_loss_factor)),
-                    np.append(model.joints.damping, 0.0))
+                    np.append(model.joints.damping, np.zeros(count)))
     return replace(model, **matrices, body_name=(*model.body_name, LINE), joints=joints, contacts=contacts,
-                   coordinate_body=np.append(model.coordinate_body, len(model.body_name)),
-                   input_rows=_widened(model.input_rows), sensor_rows=_widened(model.sensor_rows))
+                   coordinate_body=np.append(model.coordinate_body, np.full(count, len(model.body_name))),
+                   input_rows=_widened(model.input_rows, count), sensor_rows=_widened(model.sensor_rows, count))
 
 
-def _widened(rows):
-    """Sparse ``rows`` with a coordinate that they do not see."""
-    return scipy.sparse.hstack([rows, scipy.sparse.csr_matrix((rows.shape[0], 1))], "csr")
+def columns_of(count):
+    """Names of the joints by which the fluid of ``count`` lines holds the pistons."""
+    return tuple([COLUMN] if count == 1 else [f"{COLUMN}_{k + 1}" for k in range(count)])
+
+
+def _widened(rows, count):
+    """Sparse ``rows`` with ``count`` coordinates that they do not see."""
+    return scipy.sparse.hstack([rows, scipy.sparse.csr_matrix((rows.shape[0], count))], "csr")
 
 
 def _full_matrices(body, free, solver):

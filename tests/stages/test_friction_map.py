@@ -113,7 +113,7 @@ def test_the_error_of_a_fitted_law_is_that_of_what_pairs_give(computed):
 def test_a_law_without_errors_is_refused_before_anything_is_computed():
     for pairs, realisations in ((1, 2), (2, 1), (1, 1)):
         sections = {"surface": SimpleNamespace(pairs=pairs), "friction_map": Settings(order=2),
-                    "micro_friction": SimpleNamespace(realisations=realisations)}
+                    "micro_friction": SimpleNamespace(realisations=realisations, softening=5e-4)}
         if pairs * realisations > 1:
             friction_map.check(sections)
             continue

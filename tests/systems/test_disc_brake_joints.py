@@ -104,7 +104,7 @@ def test_a_fixed_caliper_is_bolted_on(fixed):
     expected = {"radial": 1e-3, "tangential": 2e-3, "axial": -3e-3}
     for name, value in zip(fixed.joints.name, moved, strict=True):
         kind = next(k for k in (*expected, "normal") if k in name)
-        held = name.startswith(("mount", "abutment"))
+        held = name.startswith(("bolt", "abutment"))
         assert value == pytest.approx(expected[kind] if held else 0, abs=1e-12), name
 
 
@@ -114,16 +114,17 @@ def inwards(x):
 
 
 def test_line_pressure_pushes_both_pads_and_not_the_caliper(fixed):
-    """The same force on both sides; of twins a half on each."""
-    pushed = {name: (fixed.piston.matrix @ alone(fixed, name, lambda x: np.broadcast_to([0, 0, 1.0], x.shape)))[0]
+    """A row for each side, the same force on both; of twins a half on each."""
+    pushed = {name: fixed.piston.matrix @ alone(fixed, name, lambda x: np.broadcast_to([0, 0, 1.0], x.shape))
               for name in fixed.names}
-    assert pushed["caliper"] == pytest.approx(0, abs=1e-12)
+    assert pushed["caliper"] == pytest.approx([-1, 1], abs=1e-12)
     if "piston" in fixed.names:
-        assert (fixed.piston.matrix @ alone(fixed, "piston", inwards))[0] == pytest.approx(2, abs=1e-12)
+        assert fixed.piston.matrix @ alone(fixed, "piston", inwards) == pytest.approx(1, abs=1e-12)
         one = alone(fixed, "piston", lambda x: inwards(x) * ((x[:, 1:2] > 0) & (x[:, 2:] < 0)))
-        assert (fixed.piston.matrix @ one)[0] == pytest.approx(0.5, abs=1e-12)
+        assert fixed.piston.matrix @ one == pytest.approx([0.5, 0], abs=1e-12)
     else:
-        assert pushed["pad_inner"] == pytest.approx(1) and pushed["pad_outer"] == pytest.approx(-1)
+        assert pushed["pad_inner"] == pytest.approx([1, 0], abs=1e-12)
+        assert pushed["pad_outer"] == pytest.approx([0, -1], abs=1e-12)
 
 
 def test_springs_of_a_fixed_caliper_add_up_piston_by_piston(fixed):
@@ -136,5 +137,5 @@ def test_springs_of_a_fixed_caliper_add_up_piston_by_piston(fixed):
     assert total("piston", "normal") == pytest.approx(4 * j.shim_stiffness if twins else 2 * j.piston_stiffness)
     assert total("piston", "normal", "outer_pad") == pytest.approx(total("piston", "normal") / 2)
     assert total("seal", "axial") == pytest.approx(4 * j.piston_stiffness if twins else 0)
-    assert total("mount", "leading", "axial") == pytest.approx(j.mount_stiffness)
+    assert total("bolt", "leading", "axial") == pytest.approx(j.bolt_stiffness)
     assert len(set(fixed.joints.name)) == len(fixed.joints.name)

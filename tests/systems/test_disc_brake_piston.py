@@ -131,16 +131,16 @@ def test_each_has_its_bore():
 
 
 def test_fluid_of_joined_bores():
-    """A^2 B / V with the area of one side and the fluid of all: four that move alike compress it by their sum."""
+    """Twins are a piston of twice the area; the columns of both sides of a fixed caliper are those of one side."""
     two, four = (fluid_column(several(fixed, fluid={"passage_volume": "0 mm^3"})) for fixed in (False, True))
     one = fluid_column(with_piston(diameter="38 mm", fluid={"passage_volume": "0 mm^3"}))
-    assert two.stiffness == pytest.approx(2 * one.stiffness) and four.stiffness == pytest.approx(one.stiffness)
-    assert two.inertia == pytest.approx(4 * one.inertia) and four.drag == pytest.approx(two.drag)
+    assert two.stiffness == pytest.approx(2 * one.stiffness) and two.inertia == pytest.approx(4 * one.inertia)
+    assert four == two
 
 
 @pytest.mark.parametrize(("changes", "message"), [
-    ({"spacing": "36 mm"}, "spacing: expected bores apart, 0.03836 m or more, found 0.036 m"),
-    ({"spacing": "80 mm"}, "a bore within the caliper, 0.4189 rad, found 0.485"),
+    ({"spacing": "40 mm"}, "spacing: expected bores 0.002 m apart, 0.04036 m or more, found 0.04 m"),
+    ({"spacing": "80 mm"}, "spacing: expected a bore within the caliper, 0.4189 rad, found 0.485"),
 ])
 def test_twins_that_do_not_fit_are_refused(changes, message):
     with pytest.raises(ConfigError, match=message):

@@ -19,6 +19,7 @@ from pipeline.physics.modal.model_updating import ModelModes
 from pipeline.physics.modal.natural_modes import slopes
 from pipeline.systems import disc_brake
 from pipeline.systems.disc_brake_joints import joints
+from pipeline.systems.solids import Rows
 
 #: bodies keep modes to this many times the highest frequency of the assembly, residual shapes beside them
 _BASIS = 1.5
@@ -100,7 +101,7 @@ class AssembledBrake:
 
     def _springs(self, brake, pressed):
         """Stiffness (s,) N/m of joints, fluid and contacts in the order of ``_rows``; ``pressed``: that section."""
-        fluid = [] if brake.fluid is None else [brake.fluid.stiffness]
+        fluid = [] if brake.fluid is None else [brake.fluid.stiffness] * brake.piston.matrix.shape[0]
         normal, along = (self.weights * each for each in (pressed.stiffness, pressed.tangential_stiffness))
         return np.concatenate((brake.joints.stiffness, fluid, normal, along, along, [0.0]))
 
@@ -108,7 +109,7 @@ class AssembledBrake:
         """[(s, 3 nodes)] of each body: joints, fluid column and contacts, last the row of the piston."""
         contacts = (brake.contacts.normal, brake.contacts.tangent, brake.contacts.lateral) if len(self.weights) else ()
         column = () if brake.fluid is None else (brake.piston,)
-        return [scipy.sparse.vstack([rows.parts[b] for rows in (brake.joints.rows, *column, *contacts, brake.piston)],
+        return [scipy.sparse.vstack([rows.parts[b] for rows in (brake.joints.rows, *column, *contacts, _pushed(brake))],
                                     format="csr") for b in range(len(brake.bodies))]
 
     def _coupled(self, brake):
@@ -149,6 +150,11 @@ class AssembledBrake:
         return members
 
 
+def _pushed(brake):
+    """Rows of the force that pistons press with: one row, of all pads that they press."""
+    return Rows(tuple(scipy.sparse.csr_matrix(part.sum(axis=0)) for part in brake.piston.parts))
+
+
 def sections(settings):
     """{section: settings} of an assembled brake in the section model_update."""
     return {name: getattr(settings, name) for name in ("disc", "pad", "caliper", "bracket", "piston", *JOINED)}
@@ -177,8 +183,9 @@ def _changed(less, more, shape, body):
 
 
 def _with_line(coupled, brake):
-    """CoupledBodies with the inertia of the fluid in the line, on which the column in the bore ends."""
-    rows = np.hstack((coupled.rows, np.zeros((len(coupled.rows), 1))))
-    rows[len(brake.joints.name), -1] = -1.0
-    return CoupledBodies(scipy.linalg.block_diag(coupled.mass, brake.fluid.inertia),
-                         scipy.linalg.block_diag(coupled.stiffness, 0.0), rows)
+    """CoupledBodies with the inertia of the fluid in the lines, on which the columns in the bores end."""
+    count, first = brake.piston.matrix.shape[0], len(brake.joints.name)
+    rows = np.hstack((coupled.rows, np.zeros((len(coupled.rows), count))))
+    rows[first:first + count, -count:] = -np.eye(count)
+    return CoupledBodies(scipy.linalg.block_diag(coupled.mass, brake.fluid.inertia * np.eye(count)),
+                         scipy.linalg.block_diag(coupled.stiffness, np.zeros((count, count))), rows)

@@ -79,7 +79,7 @@ class Pad(FromMesh):
                                                      " friction_map.bulk_temperature")
     lining_pressure_exponent: float = option(0.0, "n: moduli of the lining grow as (p / lining_pressure)^n with the"
                                              " nominal pressure p of the pads", ge=0, lt=1)
-    lining_pressure: Quantity("Pa", gt=0) = option("1 MPa", "pressure at which they are stated")
+    lining_pressure: Quantity("Pa", gt=0) = option("1 MPa", "pressure at which the moduli of the lining are stated")
     lining_density: Quantity("kg/m^3", gt=0) = option("2600 kg/m^3", "density of the lining")
     backplate_young: Quantity("Pa", gt=0) = option("207 GPa", "Young's modulus of the backplate")
     backplate_poisson: float = option(0.29, "Poisson's ratio of the backplate", gt=-1, lt=0.5)
@@ -165,7 +165,8 @@ class Fluid(Section):
     bulk_modulus: Quantity("Pa", gt=0) = option("1.5 GPa", "bulk modulus")
     density: Quantity("kg/m^3", gt=0) = option("1050 kg/m^3", "density")
     viscosity: Quantity("Pa s", gt=0) = option("10 mPa s", "dynamic viscosity")
-    passage_volume: Quantity("m^3", ge=0) = option("1 cm^3", "fluid beside that of the bore, up to the line")
+    passage_volume: Quantity("m^3", ge=0) = option("1 cm^3", "fluid beside that of the bores of one pad, up to"
+                                                      " the line")
     line_length: Quantity("m", gt=0) = option("1 m", "length of the line")
     line_diameter: Quantity("m", gt=0) = option("3.3 mm", "inner diameter of the line")
     loss_factor: float = option(0.0, "loss factor of the fluid column", ge=0)
@@ -182,7 +183,7 @@ class Piston(FromMesh):
 
     kind: Literal["body"] = "body"
     count: int = option(1, "pistons on a pad, beside one another along sliding", ge=1, le=2)
-    spacing: Quantity("m", gt=0) = option("46 mm", "distance of two pistons along sliding")
+    spacing: Quantity("m", gt=0) = option("52 mm", "distance of two pistons along sliding")
     diameter: Quantity("m", gt=0) = option("48 mm", "diameter")
     length: Quantity("m", gt=0) = option("34 mm", "length")
     wall: Quantity("m", gt=0) = option("5 mm", "thickness of the wall")

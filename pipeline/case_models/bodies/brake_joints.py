@@ -24,9 +24,11 @@ class Joints(Section):
     shim_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "one piston body on its backplate, normal")
     seal_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "seal of a piston body in its bore, each direction"
                                                    " across the axis; along it piston_stiffness")
-    mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket, or of a fixed caliper,"
-                                                    " with the knuckle behind it, each direction")
-    left_out: tuple[Literal["abutment", "finger", "piston", "guide_pin", "seal", "mount"], ...] = option(
+    mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket with the knuckle behind it,"
+                                                    " each direction")
+    bolt_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of a fixed caliper with what is behind it,"
+                                                   " each direction")
+    left_out: tuple[Literal["abutment", "finger", "piston", "guide_pin", "bolt", "seal", "mount"], ...] = option(
         (), "kinds of joints that the springs of a deck stand for instead")
     abutment_loss_factor: float = option(0.0, "loss factor of abutments and clips, in both directions", ge=0)
     finger_loss_factor: float = option(0.0, "loss factor of the fingers on the backplate", ge=0)
@@ -34,6 +36,7 @@ class Joints(Section):
     guide_pin_loss_factor: float = option(0.0, "loss factor of guide pins and boots", ge=0)
     seal_loss_factor: float = option(0.0, "loss factor of the seal of a piston body", ge=0)
     mount_loss_factor: float = option(0.0, "loss factor of the mount of the bracket", ge=0)
+    bolt_loss_factor: float = option(0.0, "loss factor of the bolts of a fixed caliper", ge=0)
     loss_time: Quantity("s", ge=0) = option("5 us", "viscous damping over stiffness of every joint, beside the loss"
                                             " factors; damping that rises with frequency")
     clamping_radius: Quantity("m", gt=0) = option("122 mm", "radius of the centre of fingers and piston")

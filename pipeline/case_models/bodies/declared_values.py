@@ -15,6 +15,8 @@ from pipeline.contract.settings import leaves
 _ROUNDING = 1e-4
 #: sections that hold stiffnesses beside other numbers, and settings of bodies that leave frequencies alone
 JOINED, _DAMPING = ("joints", "pressed"), ("loss_factor", "damping_ratio")
+#: settings of linings that a brake at the temperature and the pressure of its statement does not ask for
+_ELSEWHERE = ("lining_softening", "lining_pressure", "lining_pressure_exponent")
 
 
 class Value(Section):
@@ -60,7 +62,8 @@ def known_values(sections):
     found = {f"{section}.{key}": (value, unit) for section, settings in sections.items()
              for key, value, unit, _ in leaves(settings) if isinstance(value, float) and value > 0}
     return {name: each for name, each in found.items()
-            if (name.endswith("stiffness") if name.split(".")[0] in JOINED else not name.endswith(_DAMPING))}
+            if (name.endswith("stiffness") if name.split(".")[0] in JOINED
+                else not name.endswith(_DAMPING + _ELSEWHERE))}
 
 
 def named(values, part=None):

@@ -98,9 +98,10 @@ def families(groups, model, friction_map, points, reference_temperature):
 
 
 def at_temperature(friction_map, rise):
-    """The FrictionMap of bodies that are ``rise`` K warmer; beyond its temperatures it is constant."""
-    warm = friction_map.over_temperature["bodies"]
-    rises, first = np.unique(np.concatenate([[0.0], warm.temperature]), return_index=True)
+    """The FrictionMap of bodies that are ``rise`` K warmer than its temperature of reference; beyond its temperatures
+    it is constant."""
+    warm, own = friction_map.over_temperature["bodies"], float(friction_map.bulk_temperature)
+    rises, first = np.unique(np.concatenate([[own], warm.temperature]), return_index=True)
     tables = np.concatenate([friction_map.friction[None], warm.friction])[first]
     weight = np.array([np.interp(rise, rises, row) for row in np.eye(len(rises))])
     return replace(friction_map, friction=np.tensordot(weight, tables, 1))

@@ -18,8 +18,9 @@ JOINTS = (
     ("finger_*", "finger_shear_stiffness"), (PISTON, "shim_stiffness"), ("piston_*", "piston_shear_stiffness"),
     ("guide_pin_*_axial_*", "guide_pin_axial_stiffness"), ("guide_pin_*", "guide_pin_stiffness"),
     ("seal_axial_*", "piston_stiffness"), ("seal_*", "seal_stiffness"), ("mount_*", "mount_stiffness"),
-    ("fluid_column", "bulk_modulus"))
-LOSSES = ("abutment", "finger", "piston", "guide_pin", "seal", "mount")
+    ("bolt_*", "bolt_stiffness"),
+    ("fluid_column*", "bulk_modulus"))
+LOSSES = ("abutment", "finger", "piston", "guide_pin", "bolt", "seal", "mount")
 #: what a derivative is per where the value is 0
 TYPICAL_LOSS, TYPICAL_TIME, TYPICAL_SLOPE = 0.01, 1e-6, 0.01
 

@@ -21,7 +21,8 @@ _ASKED = ("recording", "noise_events", "line_evidence", "diagnosis")
 _JOINTS = {"abutment": ("abutment_stiffness", "clip_stiffness", "abutment_radial_stiffness"),
            "finger": ("finger_stiffness", "finger_shear_stiffness"),
            "piston": ("piston_stiffness", "piston_shear_stiffness", "shim_stiffness"),
-           "guide_pin": ("guide_pin_stiffness", "guide_pin_axial_stiffness"), "mount": ("mount_stiffness",)}
+           "guide_pin": ("guide_pin_stiffness", "guide_pin_axial_stiffness"), "mount": ("mount_stiffness",),
+           "bolt": ("bolt_stiffness",)}
 _LINING = ("lining_young_radial", "lining_young_tangential", "lining_young_normal", "lining_shear_normal",
            "lining_shear_in_plane")
 

@@ -8,12 +8,12 @@ from pipeline.physics.fem.face_averages import face_mean
 _ENDS, _LEVELS = ("LEADING", "TRAILING"), ("INNER", "OUTER")
 #: names of groups that say where a joint acts
 PLACES = {"PRESSED", "PRESSED_OUTER_PAD", *(f"ABUTMENT_{level}" for level in _LEVELS)} | {
-    f"{kind}{of}{last}" for of in ("", *(f"{side}_{end}" for side in ("", "_OUTER_PAD") for end in _ENDS), "_OUTER_PAD")
-    for kind, words in (("PISTON_RIM", [45 * k for k in range(8)]), ("SEAL", _ENDS + _LEVELS))
+    f"{kind}{of}{last}" for kind, words in (("PISTON_RIM", [45 * k for k in range(8)]), ("SEAL", _ENDS + _LEVELS))
+    for of in ("", "_OUTER_PAD", *(f"{side}_{end}" for side in ("", "_OUTER_PAD") for end in _ENDS))
     for last in ("", *(f"_{word}" for word in words))} | {
     f"{kind}_{end}{last}" for end in _ENDS for kind, words in (
-        ("FINGER", _LEVELS), ("PISTON", _LEVELS), ("PISTON_OUTER_PAD", _LEVELS), ("MOUNT", _LEVELS + ("FRONT", "REAR")),
-        ("GUIDE_PIN", ("FRONT", "REAR")), ("ABUTMENT_INNER", ()), ("ABUTMENT_OUTER", ()))
+        ("FINGER", _LEVELS), ("PISTON", _LEVELS), ("PISTON_OUTER_PAD", _LEVELS), ("MOUNT", _LEVELS),
+        ("BOLT", ("FRONT", "REAR")), ("GUIDE_PIN", ("FRONT", "REAR")), ("ABUTMENT_INNER", ()), ("ABUTMENT_OUTER", ()))
     for last in ("", *(f"_{word}" for word in words))}
 
 

@@ -32,7 +32,8 @@ LIMITS = (
     (("micro_friction",), "Plastic flow of the asperities, adhesion, and hard particles in the pad: both solids are"
      " elastic and homogeneous beneath their rough surface."),
     (("micro_friction",), "Heat: the flash temperature of the contact spots may lower the shear limit, but disc and pad"
-     " do not warm up, and no material property depends on temperature or moisture."),
+     " do not warm up beyond the temperature that the case states, on which friction and the moduli of linings alone"
+     " depend; nothing depends on moisture."),
     (("micro_friction",), _bulk),
     (("micro_friction",), _grid),
     (("structure",), "The real geometry: shapes are simplified, and values are what the settings state of their origin;"

@@ -22,6 +22,7 @@ DECIDING = (
     ("structure.joints.guide_pin_*stiffness", "joint_stiffness:guide_pin"),
     ("structure.joints.seal_stiffness", "joint_stiffness:seal"),
     ("structure.joints.mount_stiffness", "joint_stiffness:mount"),
+    ("structure.joints.bolt_stiffness", "joint_stiffness:bolt"),
     ("structure.pad.lining_young_*", "lining_stiffness"), ("structure.pad.lining_shear_*", "lining_stiffness"),
     ("surface.*.rms_height", "contact_stiffness"), ("micro_friction.pad.youngs_modulus", "contact_stiffness"),
     ("structure.joints.*_loss_factor", "joint_loss"), ("structure.joints.loss_time", "joint_loss"),
@@ -77,12 +78,16 @@ def statement(case, products):
 def _rows(case, products):
     """(name, source of scatter, value, origin, meaning, rank) of the deciding values that are default or assumed."""
     rows, brake = [], products.get("structure")
+    joints = None if brake is None else [str(name) for name in brake.joint_name]
     given = {f"structure.{name}" for name in getattr(brake, "mesh_given", ())}
     for stage, settings in case.settings.items():
         for key, value in settings.items():
             name = f"{stage}.{key}"
             rank = next((k for k, (pattern, _) in enumerate(DECIDING) if fnmatchcase(name, pattern)), None)
             origin = case.origins.get(stage, {}).get(key, {}).get("origin", DEFAULT)
+            kind = DECIDING[rank][1].partition("joint_stiffness:")[2] if rank is not None else ""
+            if kind and joints is not None and not any(joint.startswith(kind) for joint in joints):
+                continue                # of another brake: fingers of a floating caliper, bolts of a fixed one
             if rank is not None and value is not None and origin in (DEFAULT, ASSUMED) and name not in given:
                 rows.append((name, DECIDING[rank][1], written(value, case.units.get(stage, {}).get(key, "")), origin,
                              case.meanings.get(stage, {}).get(key, ""), rank))

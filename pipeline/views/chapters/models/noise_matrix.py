@@ -124,7 +124,7 @@ def _see(product):
 
 def _temperature(product):
     if product.temperature.any():
-        return "Temperature acts by the softening of the friction map alone, not on materials."
+        return "The temperatures of the schedule act by the softening of the friction map alone, not on materials."
     return ("The temperatures of the schedule do not act: the model does not depend on them, as friction does where"
             " friction_map.bulk_temperatures are stated.")
 
