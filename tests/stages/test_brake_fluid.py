@@ -133,14 +133,15 @@ def test_a_pressed_piston_stays_at_rest():
 
 
 def test_the_sides_of_a_fixed_caliper_have_a_line_each():
-    """Two rows of pistons: what moves one side alone presses its own column; statics feel neither."""
+    """Two rows of pistons, each with its column; statics feel neither."""
     two = changed(small_structure(), **{name: values * 2 for name, values in FLUID.items()})
     rows = two.piston_rows
     sides = np.repeat([1.0, -1.0], len(rows.weight))
     both = changed(rows, rows=2, row=np.concatenate((rows.row, rows.row + 1)), weight=sides * np.tile(rows.weight, 2),
                    **{name: np.tile(getattr(rows, name), 2) for name in ("body", "node", "axis")})
     model = reduced_model(changed(two, piston_rows=both), settings=Settings(fixed_below="20 kHz"))
-    assert list(model.joint_name[-2:]) == ["fluid_column_1", "fluid_column_2"] and list(model.body_name).count(LINE) == 1
+    assert list(model.joint_name[-2:]) == ["fluid_column_1", "fluid_column_2"]
+    assert list(model.body_name).count(LINE) == 1
     assert list(model.input_name) == ["piston_1", "piston_2"] and (model.coordinate_body[-2:] == 4).all()
     np.testing.assert_array_equal(model.joint_rows[-2:, -2:], -np.eye(2))
     np.testing.assert_allclose(model.joint_rows[-2:, :-2], model.input_rows[:, :-2])
