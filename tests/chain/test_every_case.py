@@ -17,9 +17,9 @@ SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_ru
         **dict.fromkeys(("disc_brake_matrix", "pin_on_disc_bench", "disc_brake_bench", "squealing_brake_bench",
                          "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines",
                          "bimaterial_rupture_fine"), [pytest.mark.slow, pytest.mark.study]),
-        **dict.fromkeys(("emps", "silverbox", "tribometer"),
+        **dict.fromkeys(("emps", "silverbox", "tribometer", "disc_brake_scanned"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
-        **dict.fromkeys(("brake_matrices", "disc_brake_scanned", "tribometer_map"),
+        **dict.fromkeys(("brake_matrices", "tribometer_map"),
                         [pytest.mark.slow, pytest.mark.measured]),
         "emps_recording": [pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
