@@ -56,6 +56,13 @@ def test_other_systems_have_no_such_list():
 
 
 def test_values_that_a_mesh_file_gives_are_no_defaults():
-    given = {"structure": SimpleNamespace(mesh_given=["disc.young", "disc.density"])}
+    joints = ["finger_normal_leading_inner", "abutment_outer_leading_radial"]
+    given = {"structure": SimpleNamespace(mesh_given=["disc.young", "disc.density"], joint_name=joints)}
     assert "structure.disc.young" in names({}) and "structure.disc.young" not in names(given)
     assert "3 are defaults of the program" in statement(CASE, given)
+
+
+def test_joints_that_the_brake_lacks_are_not_asked_for():
+    """A fixed caliper has no fingers."""
+    fixed = {"structure": SimpleNamespace(mesh_given=[], joint_name=["abutment_outer_leading_radial"])}
+    assert set(names({})) - set(names(fixed)) == {"structure.joints.finger_stiffness"}
