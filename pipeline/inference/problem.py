@@ -53,20 +53,13 @@ class Observed:
         return self.repeat_of or self.name
 
 
-class Constraint(Protocol):
-    """Why fitted values {name: value} cannot be (a negative dissipation), in a sentence; empty where they can."""
-
-    def __call__(self, values: dict) -> str: ...
-
-
 @dataclass(frozen=True)
 class Hypothesis:
     """What may be so: ``effects`` ((effect, place), ...) and ``parameters`` (Parameter, ...) that come with them.
 
-    ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
-    fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler ones leave something.
-    ``extends``: names of hypotheses that it has as limits, beside which it counts by what it adds to them; no two of
-    such a family act together.
+    ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``elaborate``: weighed only where
+    simpler ones leave something. ``extends``: names of hypotheses that it has as limits, beside which it counts by what
+    it adds to them; no two of such a family act together.
     ``halvings``: how many times the time step of the forward model is halved, where its error would matter (see
     ``fitting.step_error``).
     """
@@ -75,7 +68,6 @@ class Hypothesis:
     effects: tuple = ()
     parameters: tuple = ()
     kind: str = "physics"
-    forbidden: Constraint | None = None
     elaborate: bool = False
     extends: tuple = ()
     halvings: int = 0

@@ -61,8 +61,8 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         float(p_value), float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most,
         gained and gained.left(uncertainty), gained and _growth(gained, fit, uncertainty), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
-        candidate.forbidden(fit.values) if candidate.forbidden else "",
-        (*unfinished(fit, null, rules.evidence), *fit.excluded(LATENT_LIMIT - 1e-6), *_beyond(fit, candidate)),
+        "; ".join(_beyond(fit, candidate)),
+        (*unfinished(fit, null, rules.evidence), *fit.excluded(LATENT_LIMIT - 1e-6)),
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
         tuple(_varying(fit, [k for k, _ in added], weights, rules.decision))
@@ -75,8 +75,9 @@ def _beyond(fit, candidate):
     for parameter in candidate.parameters:
         value, (low, high) = fit.values[parameter.name], parameter.within
         if not low <= value <= high:
-            side, unit = f"below {low:.3g}" if value < low else f"above {high:.3g}", parameter.unit
-            yield f"its {short_name(parameter)} of {value:.3g} {unit} is {side} {unit}, where it is another law"
+            side, end = ("below", low) if value < low else ("above", high)
+            unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+            yield f"its {short_name(parameter)} of {value:.3g}{unit} is {side} {end:.3g}{unit}, where it is another law"
 
 
 def _nominal_p(fit, null):

@@ -13,7 +13,7 @@ class CandidateStatistics:
     left-out points and held-out runs together, in standard errors (None as those). ``held_out_share``: what its gain
     may be of the excess error, a standard error allowed for; ``held_out_left``: what it leaves of it beyond doubt;
     ``growth``: the power of its error there over that on the fitted runs. ``from_null``: largest distance of an effect
-    parameter from its null, in standard deviations. ``forbidden``: why its values cannot be (sign, passivity), or
+    parameter from its null, in standard deviations. ``forbidden``: at which of its values it is another law, or
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow

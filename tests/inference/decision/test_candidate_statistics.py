@@ -67,14 +67,12 @@ def test_a_size_that_trades_with_a_shape_is_judged_by_what_it_takes_off_the_obje
     assert told.from_null == pytest.approx(np.sqrt(end.weights.max() * end.betters(found[0]))) and told.from_null > 5
 
 
-def test_values_that_cannot_be_are_told():
+def test_values_at_which_it_is_another_law_forbid_an_effect():
     whole, _, catalogue, found = fits({"effect_1_0": -0.5})
-    guarded = (replace(catalogue[0], forbidden=_negative), *catalogue[1:])
-    assert seen(whole, guarded, found, 1).forbidden == "a negative friction force"
-
-
-def _negative(values):
-    return "a negative friction force" if values["effect_1_0"] < 0 else ""
+    bounded = replace(catalogue[0].parameters[0], within=(0.0, np.inf))
+    guarded = (replace(catalogue[0], parameters=(bounded, *catalogue[0].parameters[1:])), *catalogue[1:])
+    told = seen(whole, guarded, found, 1)
+    assert "is below 0" in told.forbidden and not told.doubts and seen(whole, catalogue, found, 1).forbidden == ""
 
 
 def test_the_right_effect_beats_its_decoy_on_held_out_runs():
@@ -186,7 +184,7 @@ def test_nominal_values_count_together_under_their_priors():
 
 
 @pytest.mark.parametrize("ratio, told", [
-    (0.29, []), (0.31, ["its damping_ratio of 0.31 1 is above 0.3 1, where it is another law"])])
+    (0.29, []), (0.31, ["its damping_ratio of 0.31 is above 0.3, where it is another law"])])
 def test_a_value_at_which_an_effect_is_another_one_is_told(ratio, told):
     _, null = null_of({})
     shape = Parameter("absorber@mass_0.damping_ratio", "1", 0.03, LogNormal(0.03, 1.0), within=(0.0, 0.3))
