@@ -71,13 +71,16 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
 
 
 def _beyond(fit, candidate):
-    """Sentences on values at which an effect is no longer what its name says."""
-    for parameter in candidate.parameters:
+    """Sentences on values at which an effect, or one that is taken as known beside it, is not what its name says."""
+    own = {parameter.name for parameter in candidate.parameters}
+    beside = [parameter for parameter in fit.hypothesis.parameters if parameter.name not in own]
+    for parameter in (*candidate.parameters, *beside):
         value, (low, high) = fit.values[parameter.name], parameter.within
         if not low <= value <= high:
             side, end = ("below", low) if value < low else ("above", high)
             unit = "" if parameter.unit == "1" else f" {parameter.unit}"
-            yield f"its {short_name(parameter)} of {value:.3g}{unit} is {side} {end:.3g}{unit}, where it is another law"
+            whose = f"its {short_name(parameter)}" if parameter.name in own else f"{parameter.name}, beside it,"
+            yield f"{whose} of {value:.3g}{unit} is {side} {end:.3g}{unit}, where it is another law"
 
 
 def _nominal_p(fit, null):

@@ -192,3 +192,6 @@ def test_a_value_at_which_an_effect_is_another_one_is_told(ratio, told):
     found = replace(null, hypothesis=null.hypothesis.joined(candidate),
                     latent=np.append(null.latent, shape.prior.latent(ratio)))
     assert list(_beyond(found, candidate)) == told
+    beside = Hypothesis("gain of x", (("sensor_gain", "x"),), ())
+    assert list(_beyond(found, beside)) == [
+        each.replace("its damping_ratio", "absorber@mass_0.damping_ratio, beside it,") for each in told]
