@@ -16,6 +16,7 @@ from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import build, moduli_left, softened
+from pipeline.systems.disc_brake_bracket import refuse_unfit_bracket
 from pipeline.systems.disc_brake_checks import refuse_unfit
 from pipeline.systems.disc_brake_piston import refuse_unfit_piston
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
@@ -72,8 +73,10 @@ def _check(sections):
     _refuse_linings(settings.pad, sections)
     if settings.disc.mount_group or from_files(settings):
         build(settings)
-    elif settings.piston.kind == "body":
-        refuse_unfit_piston(settings)
+        return
+    for part, refuse in (("bracket", refuse_unfit_bracket), ("piston", refuse_unfit_piston)):
+        if getattr(settings, part).kind == "body":
+            refuse(settings)
 
 
 def _refuse_linings(pad, sections):

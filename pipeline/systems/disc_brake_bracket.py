@@ -19,7 +19,7 @@ from pipeline.systems.solids import Solid
 
 def bracket(parameters):
     """Solid of ``parameters.bracket`` around disc, pads and caliper; ConfigError where it would intersect them."""
-    _check(parameters)
+    refuse_unfit_bracket(parameters)
     p = parameters.bracket
     mesh = _mesh(p, parameters.pad.angle / 2, inner_height(parameters))
     return Solid(mesh, np.zeros(len(mesh.element), int), ("nodular iron",), np.array([p.density]),
@@ -44,7 +44,8 @@ def _mesh(p, pads, beside):
     return revolve(radius, angle, height, column | base)
 
 
-def _check(parameters):
+def refuse_unfit_bracket(parameters):
+    """ConfigError for a meshed bracket whose dimensions do not fit those of disc, pads and caliper."""
     b, c, d, p = parameters.bracket, parameters.caliper, parameters.disc, parameters.pad
     back, front = pad_height(parameters), pad_height(parameters) + c.piston_gap
     free = min(p.inner_radius, c.inner_radius)

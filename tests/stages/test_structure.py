@@ -162,6 +162,7 @@ def test_warm_linings_are_those_of_softer_moduli(brake):
     (("structure.pad.lining_pressure_exponent=0.3",), "structure.pad.damping_ratio: 0 beside it"),
     (("structure.pad.lining_pressure_exponent=0.3", "structure.pad.damping_ratio=0"), "0 in a chain with multibody"),
     (("structure.piston={kind: body, diameter: 62 mm}",), "structure.piston.diameter: expected a rim on the backplate"),
+    (("structure.bracket={kind: body, arm_height: 15 mm}",), "structure.bracket.arm_height: expected arms that cover"),
     (("friction_map.bulk_temperature=2500 K",), "friction_map.bulk_temperature: expected less than 2000 K"),
 ])
 def test_what_cannot_be_is_refused_before_all_else(changes, message):

@@ -12,7 +12,9 @@ from pipeline.physics.fem.mesh import face_kind, face_normals
 from pipeline.physics.fem.node_graph import summed_blocks
 from pipeline.physics.fem.reference_cells import MIXED_FACES, by_kind, quadrature, shape_functions
 
-_CANDIDATES = 9
+#: faces that are tried at a point, those of the nearest middles, and more where it lies on none of them, as on wide
+#: faces beside narrow ones
+_CANDIDATES = (9, 100)
 _NEWTON_STEPS = 12
 #: how far outside a face (share of its size) a point still counts as on it
 _SLACK = 1e-6
@@ -63,15 +65,19 @@ def _nearest(node, face, kind, point, distance, slack):
     """Face (p,) of one kind below each (p, 3) point, -1 for none, and its reference coordinates (p, 2) there."""
     tree = scipy.spatial.cKDTree(face_normals(node, face)[1])
     nearest, local = np.full(len(point), -1), np.zeros((len(point), 2))
-    candidates = tree.query(point, k=min(_CANDIDATES, len(face)))[1].reshape(len(point), -1)
-    for candidate in candidates.T:
+    for first, count in zip((0, *_CANDIDATES), _CANDIDATES, strict=False):
         missing = np.flatnonzero(nearest < 0)
         if not len(missing):
             break
-        inner, gap = project(node[face[candidate[missing]]], kind, point[missing])
-        inside = _inside(kind, inner, slack) & (gap < distance)
-        nearest[missing[inside]] = candidate[missing[inside]]
-        local[missing[inside]] = inner[inside]
+        candidates = tree.query(point[missing], k=min(count, len(face)))[1].reshape(len(missing), -1)
+        for candidate in candidates[:, first:].T:
+            left = np.flatnonzero(nearest[missing] < 0)
+            if not len(left):
+                break
+            at, chosen = missing[left], candidate[left]
+            inner, gap = project(node[face[chosen]], kind, point[at])
+            inside = _inside(kind, inner, slack) & (gap < distance)
+            nearest[at[inside]], local[at[inside]] = chosen[inside], inner[inside]
     return nearest, local
 
 

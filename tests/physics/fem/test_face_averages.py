@@ -70,3 +70,10 @@ def test_point_off_the_surface_is_refused(point):
     mesh = ring()
     with pytest.raises(ConfigError, match="sensor one.*on the surface"):
         interpolation(mesh.node, top(mesh), np.array([point]), "sensor one")
+
+
+def test_a_wide_face_beside_many_narrow_ones_is_found():
+    mesh = block(np.r_[np.linspace(0, 0.02, 21), 1.0], np.linspace(0, 0.1, 2), np.linspace(0, 0.01, 2))
+    point = np.array([[0.021, 0.05, 0.01], [0.9, 0.05, 0.01]])
+    rows = surface_rows(mesh.node, top(mesh), point, np.ones(2), np.arange(2))
+    np.testing.assert_allclose(rows @ mesh.node, point, atol=1e-12)
