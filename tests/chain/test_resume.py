@@ -3,6 +3,7 @@
 import pytest
 
 from pipeline.contract.integrity import seen
+from pipeline.products import FrictionMap
 from stages import CHAINS
 from tests.chain.conftest import QUICK, brakechain, contents
 
@@ -76,5 +77,5 @@ def test_xarray_shows_named_dimensions_and_units(finished, name):
 
 def test_inspect_tells_dimensions_units_and_provenance(finished):
     told = brakechain("inspect", finished / "friction_map.h5").stdout
-    assert "friction_map version 4" in told and "friction (pressure: " in told and "provenance" in told
-    assert "Pa" in told and "settings" in told
+    assert f"friction_map version {FrictionMap.version}" in told and "friction (pressure: " in told
+    assert "provenance" in told and "Pa" in told and "settings" in told
