@@ -181,8 +181,9 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = sliding_friction(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = [Losses.of(at_state(model, k)) for k in range(len(models)) for _ in settings.speeds]
-    outcomes = context.map(partial(_operate, settings, law), list(zip(points, losses, strict=True)), "operating points")
+    losses = [Losses.of(at_state(model, k)) for k in range(len(models))]
+    tasks = list(zip(points, (each for each in losses for _ in settings.speeds), strict=True))
+    outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
     if has_full_matrices(structure, models[0][0], settings, context):
         outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, model.contact_body,
                            settings, context)

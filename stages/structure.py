@@ -132,7 +132,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
 
 def _fluid(brake, piston):
     """Fields of the fluid behind piston bodies, a column for each row of the pistons; empty without one."""
-    column, count = brake.fluid, brake.piston.matrix.shape[0]
+    column, count = brake.fluid, brake.piston.count
     if column is None:
         return {name: [] for name in ("fluid_stiffness", "fluid_loss_factor", "line_inertia", "line_drag")}
     each = {"fluid_stiffness": column.stiffness, "fluid_loss_factor": piston.fluid.loss_factor,
@@ -168,7 +168,7 @@ def _preload(brake, law, settings, context):
     for pressure in settings.pressures:
         times = float((pressure / pad.lining_pressure) ** pad.lining_pressure_exponent)
         if times not in condensed:
-            condensed[times] = _condensed(brake if times == 1 else softened(brake, times), context.solver)
+            condensed[times] = _condensed(softened(brake, times), context.solver)
         compliance, closure = condensed[times]
         preloads.append(solve_preload(compliance, pressure * closure, brake.contacts.area, *law))
     return {"pressure": settings.pressures, "preload": [f.force for f in preloads],

@@ -16,7 +16,7 @@ import numpy as np
 
 from pipeline.case_models.steady_sliding import mapped_friction, stated_friction
 from pipeline.contract import ConfigError, Section, option
-from pipeline.physics.sliding.model import at_state, sliding_model
+from pipeline.physics.sliding.model import at_state, lining_part, sliding_model
 from pipeline.physics.stability.scatter import Factors, Family, Pivot
 
 JOINTS, JOINT_LOSS, BODY_LOSS = "joint_stiffness", "joint_loss", "body_loss"
@@ -203,10 +203,7 @@ def family(model, state, friction_map, settings):
     of the ``settings``, as of ``stability_settings``."""
     model = at_state(model, state)
     bare = replace(model, loss=0 * model.loss, joint_loss_factor=0 * model.joint_loss_factor)
-    lining, lined = None, model.lining_coordinate
-    if len(lined):
-        lining = np.zeros_like(model.stiffness)
-        lining[np.ix_(lined, lined)] = model.lining_stiffness
+    lining = lining_part(model) if len(model.lining_coordinate) else None
     at = settings.sliding_distance
     law, pivot = ((stated_friction(settings)[1], Pivot()) if friction_map is None      # slopes are about 1 m/s
                   else _mapped(friction_map, at))

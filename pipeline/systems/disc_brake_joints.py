@@ -64,11 +64,12 @@ def joints(meshes, parameters):
 
 
 def _supports(meshes, parameters):
-    """Springs of guide pins, and of the ends of both pads in their abutments, end by end."""
+    """Springs of guide pins or bolts, and of the ends of both pads in their abutments, end by end."""
     j, springs = parameters.joints, []
+    holder = "bolt" if parameters.caliper.fixed else "guide_pin"
     for end, sign in (("leading", -1), ("trailing", 1)):
-        if ("bolt" if parameters.caliper.fixed else "guide_pin") not in j.left_out:
-            springs += _guide_pin(meshes, parameters, end, sign)
+        if holder not in j.left_out:
+            springs += _caliper_holder(meshes, parameters, holder, end, sign)
         for name, pad in (("outer", OUTER), ("inner", INNER)) if "abutment" not in j.left_out else ():
             spot, guide = _backplate_end(meshes, parameters, pad, sign)
             held = j.abutment_stiffness if end == "trailing" else j.clip_stiffness
@@ -78,8 +79,10 @@ def _supports(meshes, parameters):
 
 
 def _fingers(meshes, parameters):
+    if parameters.caliper.fixed:
+        return []
     j = parameters.joints
-    return [] if parameters.caliper.fixed else _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
+    return _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
                     list(_clamping_spots(meshes, parameters, "finger", OUTER)))
 
 
@@ -112,13 +115,13 @@ def piston_rows(meshes, parameters):
 
 def _piston_row(meshes, parameters, pad):
     """[(1, 3 nodes) sparse] of every body: the row of a ``pad``."""
+    side = 1 if pad == OUTER else -1
     if parameters.piston.kind == "body":
-        pairs = [_pressed(meshes, parameters, -1 if pad == INNER else 1)]
+        pairs = [_pressed(meshes, parameters, side)]
     else:
         pairs = [(spot, other) for _, spot, other in _clamping_spots(meshes, parameters, "piston", pad)]
-    sign = 1 if pad == INNER else -1
     relative = [_relative(meshes, *pair, 2) for pair in pairs]
-    return [scipy.sparse.csr_matrix(sign * sum(parts) / len(pairs)) for parts in zip(*relative, strict=True)]
+    return [scipy.sparse.csr_matrix(-side * sum(parts) / len(pairs)) for parts in zip(*relative, strict=True)]
 
 
 def _clamped(prefix, normal, shear, places):
@@ -128,25 +131,25 @@ def _clamped(prefix, normal, shear, places):
                                           ("radial", shear, "radial"))]
 
 
-def _guide_pin(meshes, parameters, end, sign):
+def _caliper_holder(meshes, parameters, holder, end, sign):
     """Axial, tangential and radial springs on the end faces of the housing, at two depths, to bracket or ground: of a
-    guide pin, or of a bolt that holds a fixed caliper."""
+    ``holder``, a guide_pin, or a bolt of a fixed caliper."""
     c, j = parameters.caliper, parameters.joints
     front = meshes[CALIPER].node[:, 2].min() + c.housing_depth
     depths = {"front": c.housing_depth / 6, "rear": 5 * c.housing_depth / 6}
     if on_bracket := parameters.bracket.kind == "body":
         beside = min(parameters.bracket.column_height + front, c.housing_depth)
         depths = {name: share * beside for name, share in _PIN_DEPTHS.items()}
-    pins, part = [], "bolt" if c.fixed else "guide_pin"
-    along, across = (j.bolt_stiffness,) * 2 if c.fixed else (j.guide_pin_axial_stiffness, j.guide_pin_stiffness)
+    across = getattr(j, f"{holder}_stiffness")
+    along, springs = j.guide_pin_axial_stiffness if holder == "guide_pin" else across, []
     for end_name, depth in depths.items():
         where = j.guide_pin_radius, front - depth, j.spot_size
-        name = f"{part}_{end}_{end_name}"
+        name = f"{holder}_{end}_{end_name}"
         spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, *where, name)
         held = _on_bracket(meshes, parameters, sign, *where, name) if on_bracket else None
-        pins += [(f"{part}_{end}_{kind}_{end_name}", stiffness / 2, spot, held, kind) for kind, stiffness in
-                 (("axial", along), ("tangential", across), ("radial", across))]
-    return pins
+        springs += [(f"{holder}_{end}_{kind}_{end_name}", stiffness / 2, spot, held, kind) for kind, stiffness in
+                    (("axial", along), ("tangential", across), ("radial", across))]
+    return springs
 
 
 def _backplate_end(meshes, parameters, pad, sign):

@@ -70,11 +70,10 @@ class FluidColumn:
 
 def places(parameters):
     """(Place, ...) of the pistons."""
-    p = parameters.piston
-    beside = (("leading_", -_off_middle(parameters)), ("trailing_", _off_middle(parameters)))
+    off = _off_middle(parameters)
+    beside = (("leading_", -off), ("trailing_", off)) if off else (("", 0.0),)
     sides = (("", -1), ("outer_pad_", 1)) if parameters.caliper.fixed else (("", -1),)
-    return tuple(Place(side + end, angle, sign) for side, sign in sides
-                 for end, angle in (beside if p.count == 2 else (("", 0.0),)))
+    return tuple(Place(side + end, angle, sign) for side, sign in sides for end, angle in beside)
 
 
 def piston(parameters):
@@ -109,8 +108,9 @@ def bore(parameters):
 
 
 def _off_middle(parameters):
-    """Half the angle between twin pistons."""
-    return parameters.piston.spacing / 2 / parameters.joints.clamping_radius
+    """Half the angle between twin pistons; 0 of one alone."""
+    p = parameters.piston
+    return p.spacing / 2 / parameters.joints.clamping_radius if p.count == 2 else 0.0
 
 
 def bore_radius(parameters):
@@ -139,8 +139,8 @@ def refuse_unfit_piston(parameters):
     """ConfigError for a meshed piston whose dimensions do not fit those of pads and caliper."""
     p, c, pad, middle = parameters.piston, parameters.caliper, parameters.pad, parameters.joints.clamping_radius
     rim, reach = p.diameter / 2, bore_radius(parameters)
-    half, off = np.arcsin(reach / middle), _off_middle(parameters) if p.count == 2 else 0.0
-    end, across = half + off, "spacing" if p.count == 2 else "diameter"
+    half, off = np.arcsin(reach / middle), _off_middle(parameters)
+    end, across = half + off, "spacing" if off else "diameter"
     rules = (
         (p.wall < (1 - _HOLE) * rim, "wall", f"a wall thinner than {(1 - _HOLE) * rim:g} m", f"{p.wall:g} m"),
         (p.crown < p.length, "crown", f"a crown thinner than the piston is long, {p.length:g} m", f"{p.crown:g} m"),
@@ -150,7 +150,7 @@ def refuse_unfit_piston(parameters):
         (c.inner_radius < middle - reach and middle + reach < c.bridge_inner_radius, "diameter",
          f"a bore in the housing, {c.inner_radius:g} to {c.bridge_inner_radius:g} m",
          f"{middle - reach:g} to {middle + reach:g} m"),
-        (p.count == 1 or half + _WALL / middle / 2 < off, "spacing", f"bores {_WALL:g} m apart,"
+        (not off or half + _WALL / middle / 2 < off, "spacing", f"bores {_WALL:g} m apart,"
          f" {2 * half * middle + _WALL:.4g} m or more", f"{p.spacing:g} m"),
         (end < c.angle / 2, across, f"a bore within the caliper, {c.angle / 2:.4g} rad", f"{end:.4g} rad"),
         (off + np.arcsin(rim / middle) < pad.angle / 2, across, f"rims on the backplate, within {pad.angle / 2:.4g}"

@@ -51,7 +51,7 @@ def incidence(rows):
     body = np.repeat(np.arange(len(parts)), [part.nnz for part in parts])
     row, column, weight = (np.concatenate([getattr(part, name) for part in parts]) for name in ("row", "col", "data"))
     used = weight != 0
-    return Incidence(rows=parts[0].shape[0], row=row[used], body=body[used], node=column[used] // 3,
+    return Incidence(rows=rows.count, row=row[used], body=body[used], node=column[used] // 3,
                      axis=column[used] % 3, weight=weight[used])
 
 

@@ -42,6 +42,11 @@ class Rows:
     parts: tuple
 
     @property
+    def count(self):
+        """Number of rows."""
+        return self.parts[0].shape[0]
+
+    @property
     def matrix(self):
         """All bodies side by side."""
         return scipy.sparse.hstack(self.parts, format="csr")

@@ -101,7 +101,7 @@ class AssembledBrake:
 
     def _springs(self, brake, pressed):
         """Stiffness (s,) N/m of joints, fluid and contacts in the order of ``_rows``; ``pressed``: that section."""
-        fluid = [] if brake.fluid is None else [brake.fluid.stiffness] * brake.piston.matrix.shape[0]
+        fluid = [] if brake.fluid is None else [brake.fluid.stiffness] * brake.piston.count
         normal, along = (self.weights * each for each in (pressed.stiffness, pressed.tangential_stiffness))
         return np.concatenate((brake.joints.stiffness, fluid, normal, along, along, [0.0]))
 
@@ -184,7 +184,7 @@ def _changed(less, more, shape, body):
 
 def _with_line(coupled, brake):
     """CoupledBodies with the inertia of the fluid in the lines, on which the columns in the bores end."""
-    count, first = brake.piston.matrix.shape[0], len(brake.joints.name)
+    count, first = brake.piston.count, len(brake.joints.name)
     rows = np.hstack((coupled.rows, np.zeros((len(coupled.rows), count))))
     rows[first:first + count, -count:] = -np.eye(count)
     return CoupledBodies(scipy.linalg.block_diag(coupled.mass, brake.fluid.inertia * np.eye(count)),

@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.physics.reduction.craig_bampton import modal_damping
+from pipeline.physics.sliding.model import lining_part
 
 TYPICAL_LOSS = 0.01
 PAD, LINING, SHIM = "pad", "lining", "shim rubber"
@@ -43,8 +44,7 @@ def _materials(name, model, body, coordinates, whole, damp):
         moduli = [(f"{name}.young", whole, body, 0, "")]
         losses = [f"{name}.loss_factor"]
     else:
-        lining = np.zeros_like(whole)
-        lining[np.ix_(model.lining_coordinate, model.lining_coordinate)] = model.lining_stiffness
+        lining = lining_part(model)
         first = list(map(str, body.material_name)).index(LINING)
         moduli = [(f"{name}.lining_young", lining, body, first, "lining_stiffness"),
                   (f"{name}.backplate_young", whole - lining, body, 1 - first, "")]

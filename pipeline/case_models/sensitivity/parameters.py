@@ -72,10 +72,11 @@ def _scaled(field, case, step):
 
 def _loaded(case, step):
     """Under more load; linings that pressure stiffens are stiffer, too."""
-    model = case.model
-    if model.lining_exponent:
-        model = at_pressure(model, (1 + step) * model.lining_pressure)
-    return replace(case, load=case.load * (1 + step), model=replace(model, lining_pressure=case.model.lining_pressure))
+    loaded, model = replace(case, load=case.load * (1 + step)), case.model
+    if not model.lining_exponent:
+        return loaded
+    stiffer = at_pressure(model, (1 + step) * model.lining_pressure)
+    return replace(loaded, model=replace(stiffer, lining_pressure=model.lining_pressure))
 
 
 def _faster(case, step):

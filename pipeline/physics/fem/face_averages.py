@@ -13,8 +13,8 @@ from pipeline.physics.fem.node_graph import summed_blocks
 from pipeline.physics.fem.reference_cells import MIXED_FACES, by_kind, quadrature, shape_functions
 
 #: faces that are tried at a point, those of the nearest middles, and more where it lies on none of them, as on wide
-#: faces beside narrow ones
-_CANDIDATES = (9, 100)
+#: faces beside narrow ones; how far from the middle of a face a point may lie on it, over its farthest node
+_CANDIDATES, _REACH = (9, 100), 1.1
 _NEWTON_STEPS = 12
 #: how far outside a face (share of its size) a point still counts as on it
 _SLACK = 1e-6
@@ -63,17 +63,18 @@ def nearest_faces(node, face, point, distance=1e-6, slack=_SLACK):
 
 def _nearest(node, face, kind, point, distance, slack):
     """Face (p,) of one kind below each (p, 3) point, -1 for none, and its reference coordinates (p, 2) there."""
-    tree = scipy.spatial.cKDTree(face_normals(node, face)[1])
-    nearest, local = np.full(len(point), -1), np.zeros((len(point), 2))
-    for first, count in zip((0, *_CANDIDATES), _CANDIDATES, strict=False):
+    middle = face_normals(node, face)[1]
+    reach = (_REACH + 2 * slack) * np.linalg.norm(node[face] - middle[:, None], axis=2).max(axis=1) + distance
+    tree, nearest, local = scipy.spatial.cKDTree(middle), np.full(len(point), -1), np.zeros((len(point), 2))
+    for count in _CANDIDATES:
         missing = np.flatnonzero(nearest < 0)
         if not len(missing):
             break
-        candidates = tree.query(point[missing], k=min(count, len(face)))[1].reshape(len(missing), -1)
-        for candidate in candidates[:, first:].T:
-            left = np.flatnonzero(nearest[missing] < 0)
+        found = tree.query(point[missing], k=np.arange(1, min(count, len(face)) + 1))
+        for apart, candidate in zip(*(each.T for each in found), strict=True):
+            left = np.flatnonzero((nearest[missing] < 0) & (apart < reach[candidate]))
             if not len(left):
-                break
+                continue
             at, chosen = missing[left], candidate[left]
             inner, gap = project(node[face[chosen]], kind, point[at])
             inside = _inside(kind, inner, slack) & (gap < distance)

@@ -267,12 +267,16 @@ def at_state(reduced, state):
 def at_pressure(reduced, pressure):
     """The same at a nominal ``pressure`` Pa, which is that of its stiffness then."""
     times = (pressure / reduced.lining_pressure) ** reduced.lining_exponent
-    at = np.ix_(reduced.lining_coordinate, reduced.lining_coordinate)
-    stiffness, loss = reduced.stiffness.copy(), reduced.loss.copy()
-    stiffness[at] += (times - 1.0) * reduced.lining_stiffness
-    loss[at] += (times - 1.0) * reduced.lining_loss_factor * reduced.lining_stiffness
-    return replace(reduced, stiffness=stiffness, loss=loss, lining_stiffness=times * reduced.lining_stiffness,
-                   lining_pressure=np.asarray(pressure, float))
+    more = (times - 1.0) * lining_part(reduced)
+    return replace(reduced, stiffness=reduced.stiffness + more, loss=reduced.loss + reduced.lining_loss_factor * more,
+                   lining_stiffness=times * reduced.lining_stiffness, lining_pressure=np.asarray(pressure, float))
+
+
+def lining_part(reduced):
+    """Stiffness (n, n) N/m of the linings alone in the coordinates of a product ReducedModel."""
+    part = np.zeros_like(reduced.stiffness)
+    part[np.ix_(reduced.lining_coordinate, reduced.lining_coordinate)] = reduced.lining_stiffness
+    return part
 
 
 def loss_stiffness(reduced):

@@ -78,20 +78,25 @@ def statement(case, products):
 def _rows(case, products):
     """(name, source of scatter, value, origin, meaning, rank) of the deciding values that are default or assumed."""
     rows, brake = [], products.get("structure")
-    joints = None if brake is None else [str(name) for name in brake.joint_name]
     given = {f"structure.{name}" for name in getattr(brake, "mesh_given", ())}
     for stage, settings in case.settings.items():
         for key, value in settings.items():
             name = f"{stage}.{key}"
             rank = next((k for k, (pattern, _) in enumerate(DECIDING) if fnmatchcase(name, pattern)), None)
             origin = case.origins.get(stage, {}).get(key, {}).get("origin", DEFAULT)
-            kind = DECIDING[rank][1].partition("joint_stiffness:")[2] if rank is not None else ""
-            if kind and joints is not None and not any(joint.startswith(kind) for joint in joints):
-                continue                # of another brake: fingers of a floating caliper, bolts of a fixed one
-            if rank is not None and value is not None and origin in (DEFAULT, ASSUMED) and name not in given:
+            if rank is None or value is None or name in given or _lacks(brake, DECIDING[rank][1]):
+                continue
+            if origin in (DEFAULT, ASSUMED):
                 rows.append((name, DECIDING[rank][1], written(value, case.units.get(stage, {}).get(key, "")), origin,
                              case.meanings.get(stage, {}).get(key, ""), rank))
     return rows if "structure" in case.settings else []
+
+
+def _lacks(brake, source):
+    """Whether a ``source`` of scatter is of joints that a product Structure, or None, has none of: fingers of a
+    floating caliper, bolts of a fixed one."""
+    kind = source.partition("joint_stiffness:")[2]
+    return bool(kind) and brake is not None and not any(str(name).startswith(kind) for name in brake.joint_name)
 
 
 def _influence(products, rows):

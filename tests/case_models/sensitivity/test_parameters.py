@@ -8,6 +8,7 @@ import pytest
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.sensitivity.matrices import Case, matrices, mean_friction, polished_root
 from pipeline.case_models.sensitivity.parameters import parameters
+from pipeline.physics.sliding.model import lining_part
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from stages.reduced_model import Settings as Reduction
@@ -64,13 +65,6 @@ def test_pressure_acts_through_linings_that_it_stiffens():
         named = {each.name: each for each in parameters(case, structure, mean_friction(case, law, points), points)}
         changes.append(compared(named["structure.pressures"], case, mode, law, points))
         assert named["structure.pressures"].of_bodies == (exponent > 0)
-    lining = replace(case, model=replace(model, stiffness=model.stiffness + STEP * _spread(model)))
+    lining = replace(case, model=replace(model, stiffness=model.stiffness + STEP * lining_part(model)))
     moved = polished_root(matrices(lining, law, points), mode.root).root - mode.root
     assert changes[1] - changes[0] == pytest.approx(0.5 * moved / STEP, rel=0.05)
-
-
-def _spread(model):
-    """Stiffness (n, n) of the linings of a product ReducedModel."""
-    lining = np.zeros_like(model.stiffness)
-    lining[np.ix_(model.lining_coordinate, model.lining_coordinate)] = model.lining_stiffness
-    return lining
