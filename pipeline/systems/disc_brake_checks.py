@@ -3,12 +3,15 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.fem.holes import ROOM, HoleRows
 from pipeline.systems.disc_brake_pad import refuse_beside_file, refuse_unfit_shape
 
 #: heights of a disc closer than so many m are one
 SAME_HEIGHT = 1e-6
 #: thinnest layer of elements of a disc, share of its ring
 _THINNEST = 0.02
+#: share of the room between holes that the elements around them may take
+_CLOSEST = 0.95
 
 
 def clamped_radius(parameters):
@@ -17,12 +20,18 @@ def clamped_radius(parameters):
     return p.bolt_circle_radius + p.bolt_head_radius + p.web_thickness * np.tan(np.pi / 6)
 
 
+def hole_rows(disc):
+    """The holes of the ring as stated by the settings of the disc."""
+    return HoleRows(disc.hole_diameter, disc.hole_count, disc.hole_rows, disc.ring_inner_radius, disc.ring_outer_radius,
+                    disc.vane_count, disc.vane_share if disc.vane_count else 0.0)
+
+
 def refuse_unfit(parameters):
     """ConfigError for dimensions of disc, pads and caliper that do not fit; those of pads and caliper from mesh files
     are not asked."""
     refuse_unfit_shape(parameters.pad)
     if parameters.disc.mesh_file:
-        refuse_beside_file(parameters.disc, "disc", ("vane_count", "hat_height"))
+        refuse_beside_file(parameters.disc, "disc", ("vane_count", "hole_count", "hat_height"))
     d, p, c = parameters.disc, parameters.pad, parameters.caliper
     rules = (
         (d.bore_radius < d.ring_inner_radius < d.ring_outer_radius, "disc", "bore < ring inner < ring outer radius",
@@ -41,7 +50,7 @@ def refuse_unfit(parameters):
          "inner < bridge inner < bridge outer radius",
          f"{c.inner_radius:g}, {c.bridge_inner_radius:g}, {c.bridge_outer_radius:g} m"),
     )
-    for holds, where, expected, actual in (*rules, *_shape_of_disc(d)):
+    for holds, where, expected, actual in (*rules, *_shape_of_disc(d), *_holes_of_disc(d)):
         meshed = getattr(parameters, where.split(".")[0]).mesh_file and not where.startswith("disc")
         if not holds and not meshed:
             raise ConfigError(f"structure.{where}", expected, actual)
@@ -70,3 +79,18 @@ def _shape_of_disc(d):
     return [*rules, (not len(thin), "disc.cheek_thickness" if d.vane_count else "disc.hat_height",
                      "faces of web, ring and cheeks that coincide or are at least"
                      f" {_THINNEST * d.ring_thickness:.2g} m apart", f"{thin.min(initial=np.inf):.2g} m")]
+
+
+def _holes_of_disc(d):
+    """[(whether it holds, where, expected, found)] of the holes of a disc."""
+    if d.mesh_file or not d.hole_count:
+        return []
+    if d.hole_diameter is None:
+        return [(False, "disc.hole_diameter", "a diameter for the holes", "none")]
+    if d.vane_count % d.hole_count:
+        return [(False, "disc.hole_count", f"a divisor of the {d.vane_count} channels between vanes, in whose middles"
+                 " holes lie", f"{d.hole_count}")]
+    holes, apart = hole_rows(d), (d.ring_outer_radius - d.ring_inner_radius) / d.hole_rows
+    most = _CLOSEST * min(apart, holes.room) / ROOM
+    return [(d.hole_diameter <= most, "disc.hole_diameter", f"holes of {most:.2g} m at most, with room for the elements"
+             f" around each of {d.hole_count} in {d.hole_rows} rows", f"{d.hole_diameter:g} m")]

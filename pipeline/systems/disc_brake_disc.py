@@ -1,7 +1,7 @@
 """The disc: a friction ring, solid or of two cheeks with radial vanes between them, on a web that the hub holds.
 
 The web is flush with the inner face of the ring (z < 0), or raised towards the fingers by a hat, whose wall joins both.
-The disc turns and its mesh does not: vanes, which are no body of revolution, stand where the mesh has them.
+The disc turns and its mesh does not: vanes and holes, which are no body of revolution, stand where the mesh has them.
 """
 
 import numpy as np
@@ -9,8 +9,9 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.groups import named_nodes
 from pipeline.physics.fem.elasticity import isotropic
+from pipeline.physics.fem.holes import drilled
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
-from pipeline.systems.disc_brake_checks import SAME_HEIGHT, clamped_radius
+from pipeline.systems.disc_brake_checks import SAME_HEIGHT, clamped_radius, hole_rows
 from pipeline.systems.mesh_files.bodies import solid
 from pipeline.systems.solids import Solid
 
@@ -52,7 +53,8 @@ def disc_mesh(parameters):
         between = ring & (abs(z) < p.ring_thickness / 2 - p.cheek_thickness)
         middle = (angle[:-1] + angle[1:]) / 2 * p.vane_count / (2 * np.pi) % 1
         mask &= ~(between[:, None] & (middle > p.vane_share)[:, None])
-    return revolve(radius, angle, height, mask)
+    mesh = revolve(radius, angle, height, mask)
+    return drilled(mesh, hole_rows(p).cells(radius, angle), p.hole_diameter) if p.hole_count else mesh
 
 
 def _web(p):
@@ -73,20 +75,29 @@ def _radii(p):
     clamped = int(np.clip(round(p.web_cells * (reach - p.bore_radius) / (p.ring_inner_radius - p.bore_radius)),
                           1, p.web_cells - 1))
     parts = [(reach, clamped), (inner, p.web_cells - clamped)]
-    parts += [(p.ring_inner_radius, 1)] * bool(p.hat_height) + [(p.ring_outer_radius, p.ring_cells)]
+    parts += [(p.ring_inner_radius, 1)] * bool(p.hat_height)
     lines = [np.array(ends)]
     for end, cells in parts:
         lines.append(np.linspace(lines[-1][-1], end, cells + 1)[1:])
-    return np.concatenate(lines)
+    holes = hole_rows(p).lines()[0] if p.hole_count else np.empty(0)
+    ring = _beside_holes([p.ring_inner_radius, *holes, p.ring_outer_radius], holes,
+                         (p.ring_outer_radius - p.ring_inner_radius) / p.ring_cells)
+    return np.concatenate([*lines, ring[1:]])
 
 
 def _angles(p):
-    """Lines around; with vanes those of their sides, and between them cells of about 1 / angular_cells."""
-    if not p.vane_count:
-        return np.linspace(0, 2 * np.pi, p.angular_cells + 1)
-    pitch = 2 * np.pi / p.vane_count
-    sides = np.concatenate([pitch * np.array([k, k + p.vane_share]) for k in range(p.vane_count)])
-    return divided([*sides, 2 * np.pi], 2 * np.pi / p.angular_cells)
+    """Lines around: those beside vanes and holes, and between them cells of about 1 / angular_cells."""
+    holes = hole_rows(p).lines()[1] if p.hole_count else np.empty(0)
+    edges = np.concatenate(((0, 2 * np.pi), holes))
+    if p.vane_count:
+        vanes = 2 * np.pi / p.vane_count * (np.arange(p.vane_count)[:, None] + (0, p.vane_share))
+        edges = np.concatenate((edges, vanes.ravel()[1:]))
+    return _beside_holes(np.sort(edges), holes, 2 * np.pi / p.angular_cells)
+
+
+def _beside_holes(edges, holes, size):
+    """Lines that divide what lies between ``edges`` by ``size``, but not from first to second of each two ``holes``."""
+    return divided(edges, np.where(np.isin(edges[:-1], holes[::2]), np.inf, size))
 
 
 def _heights(p):

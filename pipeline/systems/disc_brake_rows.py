@@ -6,7 +6,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.fem.face_averages import along, face_points, nearest_faces, surface_rows
+from pipeline.physics.fem.face_averages import along, face_points, mean_rows, nearest_faces, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces, face_kind, face_normals
 from pipeline.physics.fem.reference_cells import by_kind
 from pipeline.systems.disc_brake_pad import shim_thickness
@@ -16,6 +16,8 @@ from pipeline.systems.solids import Contacts, Rows
 DISC, OUTER, INNER, CALIPER = range(4)
 #: faces of lining and disc touch where they are nearer than so many m
 TOUCHING = 1e-4
+#: most of a lining that may lie over holes
+_HOLES = 0.5
 
 
 def body_names(parameters):
@@ -57,15 +59,21 @@ def contacts(meshes, parameters):
 
 
 def _pad_patches(meshes, parameters, pad):
-    """Body, centroids, areas and the (contacts, nodes) means on pad and disc of one pad, patches or single points."""
+    """Body, centroids, areas and the (contacts, nodes) means on pad and disc of one pad, patches or single points.
+
+    What lies over holes of the disc bears nothing.
+    """
     p, mesh = parameters.pad, meshes[pad]
     face = mesh.groups[CONTACT] if mesh.groups else _front(mesh, pad)
     point, area = _points(mesh.node, face, p.contact_points)
+    disc, below, shape = _disc_below(meshes[DISC], pad, point)
+    point, area, below, shape = (each[below >= 0] for each in (point, area, below, shape))
     group = _patches(point, p, mesh.node[np.unique(face)]) if p.contact_points is None else np.arange(len(point))
     total = np.bincount(group, area)
     centre = np.stack([np.bincount(group, area * x) for x in point.T], axis=1) / total[:, None]
     rows = surface_rows(mesh.node, face, point, area, group, "structure.pad: contact face")
-    return np.full(len(total), pad), centre, total, rows, _on_disc(meshes[DISC], pad, point, area, group)
+    on_disc = mean_rows(len(meshes[DISC].node), disc, below, shape, area, group)
+    return np.full(len(total), pad), centre, total, rows, on_disc
 
 
 def _front(mesh, pad):
@@ -91,21 +99,38 @@ def _patches(point, p, node):
     return np.unique(group, return_inverse=True)[1].ravel()
 
 
-def _on_disc(disc, pad, point, area, group):
-    """(contacts, nodes) means on the disc; ConfigError where the points do not lie on it."""
+def _disc_below(disc, pad, point):
+    """Faces (f, v) of the disc towards a pad, the one below each (p, 3) point, -1 over holes, and its vertex weights.
+
+    ConfigError for points that lie neither on the disc nor over a hole of it, and where most lie over holes.
+    """
     side = 1 if pad == OUTER else -1
     face = faces_towards(disc, side)
-    try:
-        return surface_rows(disc.node, face, point, area, group, "structure.pad: contact with the disc", TOUCHING)
-    except ConfigError:
-        off = nearest_faces(disc.node, face, point, TOUCHING)[0] < 0
+    below, shape = nearest_faces(disc.node, face, point, TOUCHING)
+    off = np.flatnonzero(below < 0)
+    if len(off) <= _HOLES * len(point):
+        off = off[~_enclosed(disc.node[np.unique(face)], point[off])]
+    if len(off):
         height, radius = side * point[off, 2], np.hypot(*point[off, :2].T)
         raise ConfigError(
             f"structure: contact of the {('outer', 'inner')[pad != OUTER]} pad with the disc", "a lining whose face"
-            f" lies on the ring, within {TOUCHING * 1e3:g} mm", f"{off.mean():.0%} of it off the disc, at heights of"
-            f" {height.min():.5g} to {height.max():.5g} m from its middle plane and radii of {radius.min():.4g} to"
-            f" {radius.max():.4g} m; the disc ends at {(side * disc.node[np.unique(face), 2]).max():.5g} m",
-            "move one of them so that they meet, and check radii, angles and units") from None
+            f" lies on the ring, within {TOUCHING * 1e3:g} mm", f"{len(off) / len(point):.0%} of it off the disc, at"
+            f" heights of {height.min():.5g} to {height.max():.5g} m from its middle plane and radii of"
+            f" {radius.min():.4g} to {radius.max():.4g} m; the disc ends at"
+            f" {(side * disc.node[np.unique(face), 2]).max():.5g} m",
+            "move one of them so that they meet, and check radii, angles and units")
+    return face, below, shape
+
+
+def _enclosed(node, point):
+    """(p,) whether nodes at the height of each point lie nearer to the axis and others farther from it."""
+    inner, outer = np.full(len(point), np.inf), np.zeros(len(point))
+    radius = np.hypot(*node[:, :2].T)
+    for k, height in enumerate(point[:, 2]):
+        there = radius[abs(node[:, 2] - height) < TOUCHING]
+        inner[k], outer[k] = there.min(initial=np.inf), there.max(initial=0.0)
+    away = np.hypot(*point[:, :2].T)
+    return (inner < away) & (away < outer)
 
 
 def sensor_rows(meshes, parameters):

@@ -1,4 +1,4 @@
-"""Discs with hat and vanes against closed forms: masses, energy of a uniform strain, one piece; what does not fit."""
+"""Discs with hat, vanes, holes: masses and energy of a uniform strain in closed form, one piece; what does not fit."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,11 @@ from tests.systems.test_disc_brake import COARSE
 
 VENTED = {"ring_thickness": "22 mm", "cheek_thickness": "7 mm", "vane_count": 24, "vane_share": 0.4,
           "web_thickness": "5 mm"}
+DRILLED = {"hole_count": 12, "hole_rows": 2, "hole_diameter": "8 mm"}
 HAT = {"hat_height": "30 mm", "hat_thickness": "6 mm"}
 BORE, INNER, OUTER, RING, CHEEK, WEB, WALL, RAISED = 0.0351, 0.0662, 0.1567, 0.022, 0.007, 0.005, 0.006, 0.03
+#: of a hole, between four parabolas
+AREA = 0.98822 * np.pi * 0.004**2
 
 
 def made(**given):
@@ -36,9 +39,13 @@ def ring(inner, outer, height):
     (VENTED, ring(INNER, OUTER, 2 * CHEEK + 0.4 * (RING - 2 * CHEEK)) + ring(BORE, INNER, WEB)),
     ({**VENTED, **HAT}, ring(INNER, OUTER, 2 * CHEEK + 0.4 * (RING - 2 * CHEEK)) + ring(BORE, INNER, WEB)
      + ring(INNER - WALL, INNER, RAISED - RING + CHEEK)),
+    ({**VENTED, **DRILLED}, ring(INNER, OUTER, 2 * CHEEK + 0.4 * (RING - 2 * CHEEK)) + ring(BORE, INNER, WEB)
+     - 24 * AREA * 2 * CHEEK),
+    ({"ring_thickness": "22 mm", "web_thickness": "5 mm", **DRILLED},
+     ring(INNER, OUTER, RING) + ring(BORE, INNER, WEB) - 24 * AREA * RING),
     ({"ring_thickness": "22 mm", "web_thickness": "5 mm", **HAT},
      ring(INNER, OUTER, RING) + ring(BORE, INNER, WEB) + ring(INNER - WALL, INNER, RAISED))],
-    ids=["solid", "vented", "vented with hat", "hat"])
+    ids=["solid", "vented", "vented with hat", "vented and drilled", "drilled", "hat"])
 def test_a_disc_has_the_volume_of_its_parts_in_one_piece(given, expected):
     solid = made(**given)
     assert volume(solid) == pytest.approx(expected, rel=1e-5)
@@ -68,6 +75,28 @@ def test_vanes_stand_in_the_middle_and_the_web_is_held_on_the_hat():
     assert held[:, 2] == pytest.approx(RAISED - RING / 2) and np.hypot(*held[:, :2].T).max() < INNER - WALL
 
 
+def test_holes_soften_and_lighten_the_ring_alike():
+    """With 4 % of holes a ring bends at nearly the frequencies of a solid one, two diameters still in a doublet."""
+    found = {}
+    for name, given in (("solid", {}), ("drilled", DRILLED)):
+        solid = made(**given)
+        found[name] = free_modes(*solid.matrices(), available()[0], 2500.0, name)[0]
+    assert 0.95 * found["solid"][0] < found["drilled"][0] < found["solid"][0]
+    assert found["drilled"][0] == pytest.approx(found["drilled"][1], rel=1e-3)
+
+
+def test_what_lies_over_holes_bears_nothing():
+    """Area is lost as the holes under the pad take it; a common translation still moves no contact."""
+    given = Settings(**{**COARSE, "disc": Disc(web_cells=2, ring_cells=4, angular_cells=36, **DRILLED)})
+    brake, plain = build(given), build(Settings(**COARSE))
+    lost = 1 - brake.pad_area / plain.pad_area
+    assert lost == pytest.approx(24 * np.pi * 0.004**2 / ring(INNER, OUTER, 1), rel=0.35)
+    for rows in (brake.contacts.normal, brake.contacts.tangent, brake.contacts.lateral):
+        for axis in np.eye(3):
+            moved = sum(part @ np.tile(axis, part.shape[1] // 3) for part in rows.parts)
+            assert abs(moved).max() < 1e-9
+
+
 def test_a_ventilated_ring_bends_about_as_a_solid_one_of_its_height():
     """Cheeks far apart bend nearly as stiffly as a solid ring of that height, and weigh less."""
     found = {}
@@ -92,6 +121,9 @@ def test_a_brake_with_a_ventilated_disc_is_built():
     ({**HAT, "hat_thickness": "20 mm"}, "disc.hat_thickness: expected less than"),
     ({**VENTED, **HAT, "hat_height": "2 mm"}, "disc.hat_height: expected a web that ends above"),
     ({**VENTED, "web_thickness": "6.9 mm"}, "disc.cheek_thickness: expected faces of web, ring and cheeks"),
+    ({"hole_count": 12}, "disc.hole_diameter: expected a diameter"),
+    ({**VENTED, **DRILLED, "hole_count": 10}, "disc.hole_count: expected a divisor of the 24 channels"),
+    ({**DRILLED, "hole_count": 60}, "disc.hole_diameter: expected holes of 0.00[0-9]+ m at most"),
     ({**HAT, "hat_height": "2.6 mm"}, "disc.hat_height: expected faces of web, ring and cheeks that coincide")])
 def test_shapes_that_do_not_fit_are_refused(given, message):
     with pytest.raises(ConfigError, match=message):

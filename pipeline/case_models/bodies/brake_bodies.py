@@ -20,6 +20,10 @@ class Disc(FromMesh):
     vane_count: int = option(0, "radial vanes between the two cheeks of a ventilated ring; 0 = solid", ge=0)
     vane_share: float = option(0.4, "share of the circumference that they fill", gt=0, lt=1)
     cheek_thickness: Quantity("m", gt=0) | None = option(None, "thickness of each cheek of a ventilated ring")
+    hole_count: int = option(0, "holes along the axis on each of hole_rows circles of the ring; 0 = none; with vanes"
+                                " they lie between them", ge=0)
+    hole_rows: int = option(2, "circles of holes, evenly over the ring, neighbours staggered", ge=1)
+    hole_diameter: Quantity("m", gt=0) | None = option(None, "their diameter")
     young: Quantity("Pa", gt=0) = option("120 GPa", "Young's modulus")
     poisson: float = option(0.27, "Poisson's ratio", gt=-1, lt=0.5)
     density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")

@@ -98,11 +98,15 @@ def surface_rows(node, face, point, weight, group, where="surface point", distan
 
     Weights within a row sum to one.
     """
-    nearest, shape = interpolation(node, face, point, where, distance)
+    return mean_rows(len(node), face, *interpolation(node, face, point, where, distance), weight, group)
+
+
+def mean_rows(nodes, face, nearest, shape, weight, group):
+    """As ``surface_rows``, of points whose faces ``nearest`` (p,) and vertex weights ``shape`` (p, v) are known."""
     share = weight / np.bincount(group, weight)[group]
     rows = np.repeat(group, face.shape[1])
     return scipy.sparse.csr_matrix(((share[:, None] * shape).ravel(), (rows, face[nearest].ravel())),
-                         (group.max() + 1, len(node)))
+                         (group.max() + 1, nodes))
 
 
 def face_mean(node, face):

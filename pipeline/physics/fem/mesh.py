@@ -58,11 +58,14 @@ def block(x, y, z, mask=None, kind="hexahedron20"):
 
 
 def divided(edges, size):
-    """Ascending lattice lines: all ``edges``, and between two of them equal cells of at most ``size``."""
+    """Ascending lattice lines: all ``edges``, and between two of them equal cells of at most ``size``, which is one for
+    all spans or one for each."""
     spans = list(zip(edges, edges[1:], strict=False))
-    cells = [max(int(np.ceil((last - first) / size - 1e-9)), 1) for first, last in spans]
-    parts = [np.linspace(*span, count + 1)[1:] for span, count in zip(spans, cells, strict=True)]
-    return np.concatenate([edges[:1], *parts])
+    parts = [edges[:1]]
+    for (first, last), most in zip(spans, np.broadcast_to(size, len(spans)), strict=True):
+        cells = max(int(np.ceil((last - first) / most - 1e-9)), 1)
+        parts.append(np.linspace(first, last, cells + 1)[1:])
+    return np.concatenate(parts)
 
 
 def _lattice(lines, mask, kind, place, closed):
