@@ -15,7 +15,7 @@ _DENSE = 400
 _BLOCK = 8
 #: most Lanczos vectors per mode
 _LONGEST = 8
-_CHECK_EVERY = 4
+_CHECK_EVERY = 2
 _LANCZOS_TOLERANCE = 1e-10
 
 
@@ -132,14 +132,16 @@ def _lanczos(factor, mass, count, sign=1):
     basis, inverse = np.empty((size, most + _BLOCK), order="F"), np.zeros((most + _BLOCK, most + _BLOCK))
     start = factor.solve(mass @ np.random.default_rng(0).standard_normal((size, _BLOCK)))
     basis[:, :_BLOCK], inertia, _ = _orthonormal(start, mass)
+    heavy = inertia         # M times the last two blocks
     for done in range(_BLOCK, most + 1, _BLOCK):
         now, after = slice(done - _BLOCK, done), slice(done, done + _BLOCK)
         recent = slice(max(done - 2 * _BLOCK, 0), done)
         image = factor.solve(inertia)
-        inverse[recent, now] = basis[:, recent].T @ (mass @ image)
+        inverse[recent, now] = heavy.T @ image
         image -= basis[:, recent] @ inverse[recent, now]
         image -= basis[:, :done] @ (basis[:, :done].T @ (mass @ image))
-        basis[:, after], inertia, rest = _orthonormal(image, mass)
+        basis[:, after], following, rest = _orthonormal(image, mass)
+        heavy, inertia = np.hstack((inertia, following)), following
         if done >= count and (done - count) // _BLOCK % _CHECK_EVERY == 0:
             wanted = (done - count, done - 1) if sign > 0 else (0, count - 1)
             value, vector = scipy.linalg.eigh(inverse[:done, :done], subset_by_index=wanted, lower=False)
