@@ -8,8 +8,9 @@ from pipeline.contract import ConfigError
 from pipeline.physics.fem.supports import free_modes
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.systems.disc_brake import build
-from pipeline.systems.disc_brake_disc import disc
+from pipeline.systems.disc_brake_disc import disc, disc_mesh
 from stages.structure import Disc, Settings
+from tests.decks.meshes.small_decks import IRON, abaqus
 from tests.systems.test_disc_brake import COARSE
 
 VENTED = {"ring_thickness": "22 mm", "cheek_thickness": "7 mm", "vane_count": 24, "vane_share": 0.4,
@@ -95,6 +96,16 @@ def test_what_lies_over_holes_bears_nothing():
         for axis in np.eye(3):
             moved = sum(part @ np.tile(axis, part.shape[1] // 3) for part in rows.parts)
             assert abs(moved).max() < 1e-9
+
+
+def test_a_drilled_disc_from_a_file_bears_the_same(tmp_path):
+    """The own mesh as a deck: the same contacts."""
+    shape = {"web_cells": 2, "ring_cells": 4, "angular_cells": 36}
+    (tmp_path / "disc.inp").write_text(abaqus(disc_mesh(Disc(**shape, **DRILLED)), more=IRON))
+    read, own = (build(Settings(**{**COARSE, "disc": Disc(**shape, **given)})) for given in (
+        {"mesh_file": tmp_path / "disc.inp", "mesh_units": "mm-t-s"}, DRILLED))
+    assert read.contacts.area == pytest.approx(own.contacts.area, rel=1e-9)
+    assert read.contacts.position == pytest.approx(own.contacts.position, abs=1e-9)
 
 
 def test_a_ventilated_ring_bends_about_as_a_solid_one_of_its_height():
