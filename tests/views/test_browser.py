@@ -28,13 +28,16 @@ document.title = JSON.stringify({{wide: inside.documentElement.scrollWidth, imag
 broken: images.filter(i => !i.naturalWidth).length, text: inside.querySelector("h1").textContent}}); }})
 </script>"""
 
-#: what a reader does with a page: moves the pointer over a curve and over a large map, enlarges one, turns a mode
+#: what a reader does with a page: moves the pointer over a curve and over a large map, enlarges one, turns a mode; the
+#: document that is being written keeps the browser from taking the page for loaded before all is done
 READER = """<!DOCTYPE html><title>reader</title><link rel="icon" href="data:,"><body style="margin:0">
-<iframe style="border:0" width="1280" height="60000" srcdoc="{page}"></iframe><script>
-const tell = made => {{ document.title = JSON.stringify(made); }};
+<iframe hidden></iframe><script>
+const busy = document.querySelector("iframe").contentDocument;
+busy.open();
+const tell = made => {{ document.title = JSON.stringify(made); busy.close(); }};
 addEventListener("unhandledrejection", event => tell({{failed: String(event.reason)}}));
-addEventListener("load", async () => {{
-const page = document.querySelector("iframe").contentDocument, view = page.defaultView;
+const read = async frame => {{
+const page = frame.contentDocument, view = page.defaultView;
 const wait = () => new Promise(done => setTimeout(done, 400)), tip = page.querySelector(".tip"), made = {{}};
 const at = (target, kind, x, y) => {{ const frame = target.getBoundingClientRect();
   target.dispatchEvent(new view.PointerEvent(kind, {{bubbles: true, clientX: frame.left + x * frame.width,
@@ -61,18 +64,19 @@ if (figure) {{ figure.querySelector(".turn").click(); await wait(); await wait()
   const later = canvas.toDataURL();
   made.turned = first !== later && Math.min(first.length, later.length) > 10000;
   made.controls = figure.querySelectorAll("input").length; }}
-tell(made); }})
-</script>"""
+tell(made); }};
+</script>
+<iframe style="border:0" width="1280" height="60000" onload="read(this)" srcdoc="{page}"></iframe>"""
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on this machine (Debian package 'chromium')")
 
 
-def opened(folder, html, *flags):
+def opened(folder, html):
     """Open ``html`` as a file: (document after loading, console lines, requests of the page that leave the file)."""
     page, log = folder / "report.html", folder / "net.json"
     page.write_text(html, encoding="utf-8")
     run = subprocess.run([CHROMIUM, *FLAGS, f"--user-data-dir={folder / 'profile'}", f"--log-net-log={log}",
-                          "--window-size=1280,4000", *flags, page.as_uri()],
+                          "--window-size=1280,4000", page.as_uri()],
                          capture_output=True, text=True, timeout=120, check=True)
     console = [line for line in run.stderr.splitlines() if ":CONSOLE:" in line]
     return run.stdout, console, _requests(json.loads(log.read_text()))
@@ -124,7 +128,7 @@ def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width
 
 def test_a_reader_sees_values_zooms_and_turns_a_mode(html, tmp_path):
     """Where this machine draws pictures in three dimensions; values under the pointer anywhere."""
-    document, console, requests = opened(tmp_path, READER.format(page=escape(html)), "--virtual-time-budget=200000")
+    document, console, requests = opened(tmp_path, READER.format(page=escape(html)))
     made = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
     assert "failed" not in made, made
     assert "coefficient of friction: " in made["curve"] and "kHz: growth rate: " in made["curve"]
