@@ -3,15 +3,13 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.fem.holes import ROOM, HoleRows
+from pipeline.physics.fem.holes import HoleRows
 from pipeline.systems.disc_brake_pad import refuse_beside_file, refuse_unfit_shape
 
 #: heights of a disc closer than so many m are one
 SAME_HEIGHT = 1e-6
 #: thinnest layer of elements of a disc, share of its ring
 _THINNEST = 0.02
-#: share of the room between holes that the elements around them may take
-_CLOSEST = 0.95
 
 
 def clamped_radius(parameters):
@@ -90,7 +88,6 @@ def _holes_of_disc(d):
     if d.vane_count % d.hole_count:
         return [(False, "disc.hole_count", f"a divisor of the {d.vane_count} channels between vanes, in whose middles"
                  " holes lie", f"{d.hole_count}")]
-    holes, apart = hole_rows(d), (d.ring_outer_radius - d.ring_inner_radius) / d.hole_rows
-    most = _CLOSEST * min(apart, holes.room) / ROOM
+    most = hole_rows(d).largest
     return [(d.hole_diameter <= most, "disc.hole_diameter", f"holes of {most:.2g} m at most, with room for the elements"
              f" around each of {d.hole_count} in {d.hole_rows} rows", f"{d.hole_diameter:g} m")]

@@ -9,6 +9,8 @@ from pipeline.physics.fem.reference_cells import reference_vertices
 
 #: width of the cells that are drilled, in diameters of the hole: wider ones soften a plate by too much (12 % at 2)
 ROOM = 1.3
+#: share of the room between holes that their cells may take
+_CLOSEST = 0.95
 #: once around a cell, its corners and the middles of its sides, clockwise, in halves of the cell
 _AROUND = ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))
 
@@ -45,22 +47,16 @@ class HoleRows:
         return 2 * np.pi / self.channels * (each * apart + row * apart // self.rows + (1 + self.wall) / 2)
 
     @property
-    def width(self):
-        """Angle that a drilled cell spans: ``ROOM`` diameters on the innermost circle."""
-        return ROOM * self.diameter / self.radius[0]
-
-    @property
-    def room(self):
-        """Free width [m] along the innermost circle for the cell of one hole."""
-        if self.channels:
-            return 2 * np.pi / self.channels * (1 - self.wall) * self.radius[0]
-        return 2 * np.pi / (self.count * self.rows) * self.radius[0]
+    def largest(self):
+        """Largest diameter [m] whose cells leave some room between two circles, two holes and two walls."""
+        free = (1 - self.wall) / self.channels if self.channels else 1 / (self.count * self.rows)
+        return _CLOSEST / ROOM * min((self.outer - self.inner) / self.rows, 2 * np.pi * free * self.radius[0])
 
     def lines(self):
-        """Radii and angles of the sides of the cells that are drilled, each ascending."""
-        middle, half = np.unique(self.angle.round(12)), np.array([-0.5, 0.5])
-        return ((self.radius[:, None] + half * ROOM * self.diameter).ravel(),
-                (middle[:, None] + half * self.width).ravel())
+        """Radii and angles of the sides of the cells that are drilled, each ascending: ``ROOM`` diameters along the
+        radius and on the innermost circle."""
+        middle, half = np.unique(self.angle.round(12)), ROOM * self.diameter * np.array([-0.5, 0.5])
+        return ((self.radius[:, None] + half).ravel(), (middle[:, None] + half / self.radius[0]).ravel())
 
     def cells(self, radius, angle):
         """(c, 2) indices of the cells between the lattice lines ``radius`` and ``angle`` that hold a hole."""

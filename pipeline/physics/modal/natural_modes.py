@@ -131,17 +131,16 @@ def _lanczos(factor, mass, count, sign=1):
     size, most = mass.shape[0], min(_LONGEST * count + 20 * _BLOCK, mass.shape[0] // 2)
     basis, inverse = np.empty((size, most + _BLOCK), order="F"), np.zeros((most + _BLOCK, most + _BLOCK))
     start = factor.solve(mass @ np.random.default_rng(0).standard_normal((size, _BLOCK)))
-    basis[:, :_BLOCK], inertia, _ = _orthonormal(start, mass)
-    heavy = inertia         # M times the last two blocks
+    basis[:, :_BLOCK], inertia, _ = _orthonormal(start, mass)       # M times the last block, then the last two
     for done in range(_BLOCK, most + 1, _BLOCK):
         now, after = slice(done - _BLOCK, done), slice(done, done + _BLOCK)
         recent = slice(max(done - 2 * _BLOCK, 0), done)
-        image = factor.solve(inertia)
-        inverse[recent, now] = heavy.T @ image
+        image = factor.solve(inertia[:, -_BLOCK:])
+        inverse[recent, now] = inertia.T @ image
         image -= basis[:, recent] @ inverse[recent, now]
         image -= basis[:, :done] @ (basis[:, :done].T @ (mass @ image))
         basis[:, after], following, rest = _orthonormal(image, mass)
-        heavy, inertia = np.hstack((inertia, following)), following
+        inertia = np.hstack((inertia[:, -_BLOCK:], following))
         if done >= count and (done - count) // _BLOCK % _CHECK_EVERY == 0:
             wanted = (done - count, done - 1) if sign > 0 else (0, count - 1)
             value, vector = scipy.linalg.eigh(inverse[:done, :done], subset_by_index=wanted, lower=False)
