@@ -9,7 +9,7 @@ import json
 import os
 import time
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from pipeline.blind_trial.generators import case_files
@@ -114,11 +114,20 @@ def drawn(plan):
 
 def run(plan, folder, **asked):
     """(truth, answer) of one Plan, from its files where they are there."""
+    case = cache(partial(drawn, plan))
+    if not (folder / "recordings.h5").exists():
+        case_files.write(case(), folder)
+    answer = answered(folder, partial(solved, folder, **asked))
     if not (folder / "truth.json").exists():
-        case = drawn(plan)
-        case_files.write(case, folder)
-        (folder / "truth.json").write_text(json.dumps(case_files.truth(case), indent=1) + "\n")
-    return json.loads((folder / "truth.json").read_text()), answered(folder, partial(solved, folder, **asked))
+        (folder / "truth.json").write_text(json.dumps(score_of(case(), answer), indent=1) + "\n")
+    return json.loads((folder / "truth.json").read_text()), answer
+
+
+def score_of(case, answer):
+    """What the ``answer`` is judged by: laws like the effect that is hidden, which take minutes to be found, only where
+    it names something else."""
+    told = case_files.truth(case, looked_for=("foreign",))
+    return told if case.kind != "effect" or judged(told, answer)["right"] else case_files.truth(case)
 
 
 def answered(folder, solve):

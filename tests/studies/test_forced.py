@@ -1,10 +1,13 @@
 """The study of forced rigs: its plan, its scores, its rates; and, slow, a sample of it."""
 
+from types import SimpleNamespace
+
 import pytest
 
+from pipeline.blind_trial.generators import case_files
 from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
 from pipeline.blind_trial.metrics.criteria import judged
-from tests.studies.forced import Plan, plans, run, table
+from tests.studies.forced import Plan, plans, run, score_of, table
 
 
 def test_every_piece_stands_at_two_places_and_two_noise_levels_beside_130_controls():
@@ -29,6 +32,18 @@ def test_the_table_tells_rates_with_their_intervals():
     lines = table([(truth("control"), told("parameters")), (truth("effect"), told("missing", ("coulomb", "link_1")))])
     assert any(line.startswith("false alarms on controls") and "0 of 1" in line for line in lines)
     assert any("type and place at 1%" in line and "100.0%" in line for line in lines)
+
+
+def test_laws_alike_are_looked_for_only_where_something_else_is_named(monkeypatch):
+    looked = []
+    monkeypatch.setattr(case_files, "truth", lambda case, looked_for=("effect", "foreign"): (
+        looked.append(case.kind in looked_for), truth(case.kind))[1])
+    for kind, answer, times in (("effect", told("missing", ("coulomb", "link_1")), 0), ("control", told("unknown"), 0),
+                                ("effect", told("missing", ("backlash", "link_1")), 1),
+                                ("foreign", told("unknown"), 1)):
+        looked.clear()
+        score_of(SimpleNamespace(kind=kind), answer)
+        assert sum(looked) == times
 
 
 @pytest.mark.slow

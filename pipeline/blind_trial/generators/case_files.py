@@ -64,13 +64,14 @@ def channels(force, shown, rate):
             **{f"x_{k}": (samples, "m", "displacement", rate, "response") for k, samples in enumerate(shown)}}
 
 
-def truth(case):
+def truth(case, looked_for=("effect", "foreign")):
     """What is opened only for the score: see ``pipeline.blind_trial.generators.systems``.
 
     ``left`` is d of ``spring_mass.detectability``: of the weaker of a pair, the other refitted; of physics that no
-    catalogue holds, beside the nearest known law. Laws that leave less than can be told are alike.
+    catalogue holds, beside the nearest known law. Laws that leave less than can be told are alike; they are
+    ``looked_for`` in cases of these classes.
     """
-    near = rivals(case) if case.kind in ("effect", "foreign") else []
+    near = rivals(case) if case.kind in looked_for else []
     listed = effects(case, parameters)
     hidden = [{**entry, "alike": alike(p, case.truth)} for entry, p in zip(listed, case.planted, strict=True)]
     for taken in ({"name": entry.name, "place": entry.place} for entry in near if entry.left < APART):
