@@ -24,6 +24,7 @@ class CaseSummary:
     meanings: dict = field(default_factory=dict)    # stage -> {dotted key: meaning}
     methods: dict = field(default_factory=dict)     # stage -> sentence with {setting} in it
     version: str = ""
+    idle: dict = field(default_factory=dict)        # stage -> {dotted key: what would give it an effect, or ""}
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from types import UnionType
-from typing import Annotated, Union, get_args, get_origin
+from typing import Annotated, ClassVar, Union, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -43,6 +43,8 @@ class Section(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False,
                               defer_build=True)
+    #: settings that have no effect while another one is 0, none or false: {the other: names}
+    only_with: ClassVar[dict] = {}
 
     @model_validator(mode="before")
     @classmethod
@@ -255,7 +257,12 @@ def fill(cls, values, where, context=None):
 
 
 def leaves(section, prefix=""):
-    """Yield (dotted key, value, SI unit or "", meaning) of every setting of a filled section."""
+    """Yield (dotted key, value, SI unit or "", meaning, idle) of every setting of a filled section.
+
+    ``idle``: the dotted key of the setting that would give it an effect; '' where it has one.
+    """
+    idle = {name: f"{prefix}{other}" for other, names in section.only_with.items() if not getattr(section, other)
+            for name in names}
     for name, info in type(section).model_fields.items():
         value, key = getattr(section, name), f"{prefix}{name}"
         if isinstance(value, Section):
@@ -264,7 +271,7 @@ def leaves(section, prefix=""):
             for index, item in value.items() if isinstance(value, dict) else enumerate(value):
                 yield from leaves(item, f"{key}.{index}.")
         else:
-            yield key, value, _unit(info), info.description or ""
+            yield key, value, _unit(info), info.description or "", idle.get(name, "")
 
 
 def statements(section, prefix=""):

@@ -70,9 +70,22 @@ def test_origins_are_split_from_values():
 
 
 def test_leaves_tell_units_and_meanings():
-    told = {key: (value, unit, meaning) for key, value, unit, meaning in leaves(Settings())}
+    told = {key: (value, unit, meaning) for key, value, unit, meaning, _ in leaves(Settings())}
     assert told["ring.thickness"] == (pytest.approx(0.00687), "m", "ring thickness")
     assert told["pressures"] == ((1e6, 2e6), "Pa", "pressures") and told["steps"] == (41, "", "steps")
+
+
+def test_leaves_tell_what_has_no_effect():
+    class Shim(Section):
+        only_with = {"rubber": ("density",)}
+        rubber: float = option(0.0, "rubber")
+        density: float = option(1200.0, "its density")
+
+    class Pad(Section):
+        shim: Shim = option(Shim(), "shim")
+
+    assert {key: idle for key, *_, idle in leaves(Pad())} == {"shim.rubber": "", "shim.density": "shim.rubber"}
+    assert not any(idle for *_, idle in leaves(Pad(shim=Shim(rubber=1e-4))))
 
 
 def test_a_document_of_a_folder_is_named_and_others_are_files(tmp_path):

@@ -9,6 +9,10 @@ from pipeline.contract import InputFile, Names, Quantity, Section, option
 class Disc(FromMesh):
     """Stepped disc, its mount and its mesh."""
 
+    only_with: ClassVar[dict] = {
+        "hat_height": ("hat_thickness",), "vane_count": ("vane_share", "cheek_thickness"),
+        "hole_count": ("hole_rows", "hole_diameter")}
+
     ring_inner_radius: Quantity("m", gt=0) = option("66.2 mm", "inner radius of the friction ring")
     ring_outer_radius: Quantity("m", gt=0) = option("156.7 mm", "outer radius of the friction ring")
     ring_thickness: Quantity("m", gt=0) = option("6.87 mm", "thickness of the friction ring")
@@ -48,6 +52,11 @@ class Pad(FromMesh):
         *(f"lining_{name}" for name in ("young_radial", "young_tangential", "young_normal", "poisson", "shear_normal",
                                         "shear_in_plane", "density")),
         "backplate_young", "backplate_poisson", "backplate_density")
+    only_with: ClassVar[dict] = {
+        "chamfer_length": ("chamfer_depth",), "slot_width": ("slot_depth",), "added_mass": ("added_mass_at",),
+        "shim_rubber_thickness": ("shim_cover_thickness", *(f"shim_rubber_{name}" for name in (
+            "shear", "poisson", "density", "loss_factor"))),
+        "lining_pressure_exponent": ("lining_pressure",)}
 
     inner_radius: Quantity("m", gt=0) = option("95 mm", "inner radius")
     outer_radius: Quantity("m", gt=0) = option("150 mm", "outer radius")

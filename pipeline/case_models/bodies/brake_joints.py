@@ -1,6 +1,6 @@
 """Settings of the joints of a disc brake, and of its pads pressed on the disc at rest."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pipeline.contract import Quantity, Section, option
 
@@ -50,6 +50,8 @@ class Joints(Section):
 
 class PressedPads(Section):
     """Pads held on a disc that does not turn: contacts stick, and are stiff in proportion to their pressure."""
+
+    only_with: ClassVar[dict] = {"force": ("stiffness", "tangential_stiffness")}
 
     force: Quantity("N", ge=0) = option("0 N", "force of the piston on the pads; 0 = pads lifted off the disc")
     stiffness: Quantity("Pa/m", gt=0) = option("1 MPa/um", "normal stiffness per area at the mean pressure, as"

@@ -53,8 +53,16 @@ def written(value, unit):
     return ", ".join(written(v, unit) for v in value) if many else str(value)
 
 
+def idle(case, stage, key):
+    """'no effect while hat_height is 0 m' of a setting that has none as the case stands; '' of others."""
+    other = case.idle.get(stage, {}).get(key, "")
+    value, unit = case.settings.get(stage, {}).get(other), case.units.get(stage, {}).get(other, "")
+    return f"no effect while {other} is {'none' if value is None else written(value, unit)}" if other else ""
+
+
 def _row(case, stage, key, value):
     origin = case.origins.get(stage, {}).get(key, {})
+    said = origin.get("source", ""), origin.get("doubt", ""), idle(case, stage, key)
     return {"key": key, "meaning": case.meanings.get(stage, {}).get(key, ""),
             "value": written(value, case.units.get(stage, {}).get(key, "")), "origin": origin.get("origin", "default"),
-            "source": "; ".join(filter(None, (origin.get("source", ""), origin.get("doubt", ""))))}
+            "source": "; ".join(filter(None, said))}

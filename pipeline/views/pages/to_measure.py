@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.views.chapters.chapter import Table
 from pipeline.views.chapters.models.sensitivities import in_words
 from pipeline.views.figures.number_format import percent, plural, quantity
-from pipeline.views.pages.case_settings import written
+from pipeline.views.pages.case_settings import idle, written
 
 DEFAULT, ASSUMED = "default", "assumed"
 #: settings that decide on flutter, those first that commonly matter most, and the source of scatter that they belong to
@@ -34,6 +34,8 @@ DECIDING = (
 STANDS_FOR = (("structure.pad.lining_young_*", "structure.pad.lining_young"),
               ("structure.pad.lining_shear_*", "structure.pad.lining_young"),
               ("structure.pad.*density", "structure.pad.densities"))
+#: values that act where another kind of joint is: a piston body, which bears on a shim, has a seal
+_ALONE = {"structure.joints.shim_stiffness": "seal"}
 #: rows that are shown open
 _FIRST = 10
 #: as of ``_influence``, of a value of which nothing is known
@@ -84,7 +86,7 @@ def _rows(case, products):
             name = f"{stage}.{key}"
             rank = next((k for k, (pattern, _) in enumerate(DECIDING) if fnmatchcase(name, pattern)), None)
             origin = case.origins.get(stage, {}).get(key, {}).get("origin", DEFAULT)
-            if rank is None or value is None or name in given or _lacks(brake, DECIDING[rank][1]):
+            if rank is None or value is None or name in given or idle(case, stage, key) or _lacks(brake, name, rank):
                 continue
             if origin in (DEFAULT, ASSUMED):
                 rows.append((name, DECIDING[rank][1], written(value, case.units.get(stage, {}).get(key, "")), origin,
@@ -92,11 +94,13 @@ def _rows(case, products):
     return rows if "structure" in case.settings else []
 
 
-def _lacks(brake, source):
-    """Whether a ``source`` of scatter is of joints that a product Structure, or None, has none of: fingers of a
-    floating caliper, bolts of a fixed one."""
-    kind = source.partition("joint_stiffness:")[2]
-    return bool(kind) and brake is not None and not any(str(name).startswith(kind) for name in brake.joint_name)
+def _lacks(brake, name, rank):
+    """Whether the setting ``name`` of ``rank`` in DECIDING is of joints that a product Structure, or None, has none
+    of: fingers of a floating caliper, bolts of a fixed one."""
+    kind = _ALONE.get(name, DECIDING[rank][1].partition("joint_stiffness:")[2])
+    if name.startswith("structure.joints.") and name.endswith("_loss_factor"):
+        kind = name.removeprefix("structure.joints.").removesuffix("_loss_factor")
+    return bool(kind) and brake is not None and not any(str(each).startswith(kind) for each in brake.joint_name)
 
 
 def _influence(products, rows):

@@ -3,6 +3,7 @@
 import pytest
 
 from pipeline.case_models.bodies.brake_bodies import Caliper, Disc, Pad, Piston
+from pipeline.case_models.bodies.brake_joints import PressedPads
 from pipeline.contract.settings import ConfigError, fill
 
 
@@ -19,3 +20,9 @@ def test_quantities_are_read_in_their_units():
 def test_what_no_body_can_have_is_refused(body, given, said):
     with pytest.raises(ConfigError, match=said):
         fill(body, given, "structure")
+
+
+@pytest.mark.parametrize("section", [Disc, Pad, PressedPads])
+def test_what_has_no_effect_without_another_setting_is_a_setting_itself_and_the_other_is_off_by_default(section):
+    for other, names in section.only_with.items():
+        assert {other, *names} <= set(section.model_fields) and not getattr(section(), other)

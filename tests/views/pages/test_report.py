@@ -140,4 +140,9 @@ def test_settings_are_written_for_reading():
     assert case_view.written(Path("/somewhere/plu-1.plu"), "") == "plu-1.plu"
     assert case_view.written({"bell": 2750.0, "ring": 5200.0}, "Hz") == "bell: 2.75\u202fkHz, ring: 5.2\u202fkHz"
     assert case_view.written((1e6, 2.5e6), "Pa") == "1, 2.5\u202fMPa"
+    idle = CaseSummary(settings={"structure": {"disc.hat_thickness": 6e-3, "disc.hat_height": 0.0}},
+                       units={"structure": {"disc.hat_height": "m"}},
+                       idle={"structure": {"disc.hat_thickness": "disc.hat_height", "disc.hat_height": ""}})
+    told = [row["source"] for row in case_view.stages(idle)[0]["rows"]]
+    assert told == ["no effect while disc.hat_height is 0\u202fm", ""]
     assert case_view.tuned(small.case()) == (("micro_friction.shear_limit", "13.5\u202fMPa"),)

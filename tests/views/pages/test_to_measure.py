@@ -62,6 +62,26 @@ def test_values_that_a_mesh_file_gives_are_no_defaults():
     assert "3 are defaults of the program" in statement(CASE, given)
 
 
+def test_values_without_effect_are_not_asked_for():
+    """The density of the rubber of a shim of no thickness; whether there is a shim is asked for."""
+    settings = {"structure": {"pad.shim_rubber_density": 1200.0, "pad.shim_rubber_thickness": 0.0}}
+    idle = {"structure": {"pad.shim_rubber_density": "pad.shim_rubber_thickness"}}
+    assert len(to_measure(CaseSummary(settings=settings), {})[0].rows) == 2
+    left = to_measure(CaseSummary(settings=settings, idle=idle), {})[0].rows
+    assert [row[0] for row in left] == ["structure.pad.shim_rubber_thickness"]
+
+
+def test_loss_factors_of_joints_that_the_brake_lacks_are_not_asked_for():
+    """Nor the shim below a piston that is no body, though its seal is a joint of pistons."""
+    case = CaseSummary(settings={"structure": {"joints.bolt_loss_factor": 0.0, "joints.abutment_loss_factor": 0.0,
+                                               "joints.shim_stiffness": 4e8, "joints.piston_stiffness": 1e5}})
+    brake = SimpleNamespace(mesh_given=[], joint_name=["abutment_outer", "piston_normal"])
+    found = {row[0] for table in to_measure(case, {"structure": brake}) for row in table.rows}
+    assert found == {"structure.joints.abutment_loss_factor", "structure.joints.piston_stiffness"}
+    brake.joint_name += ["seal_axial_1", "bolt_1"]
+    assert sum(len(table.rows) for table in to_measure(case, {"structure": brake})) == 4
+
+
 def test_joints_that_the_brake_lacks_are_not_asked_for():
     """A fixed caliper has no fingers."""
     fixed = {"structure": SimpleNamespace(mesh_given=[], joint_name=["abutment_outer_leading_radial"])}
