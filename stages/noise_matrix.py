@@ -26,6 +26,7 @@ from pipeline.contract import ConfigError, Context, Quantity, Section, option, s
 from pipeline.diagnosis import noise_matrix_case
 from pipeline.diagnosis.noise_matrix_comparison import comparison
 from pipeline.physics.stability.draw_statistics import third_octaves
+from pipeline.physics.stability.whole_roots import accuracy
 from pipeline.products import ComplexModes, FrictionMap, NoiseEvents, NoiseMatrix, Recording, ReducedModel
 
 
@@ -141,11 +142,8 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
 
 
 def _accuracy(result):
-    none = np.empty(0, complex)
-    return {"checked_root": np.concatenate([none, *(c[0] for c in result.compared)]),
-            "whole_root": np.concatenate([none, *(c[1] for c in result.compared)]),
-            "checked_draws": len(result.compared), "missed": sum(int(c[2]) for c in result.compared),
-            "refined_stops": result.refined.size, "refined_changed": int(np.sum(result.refined != result.coarse))}
+    return {**accuracy(result.compared), "refined_stops": result.refined.size,
+            "refined_changed": int(np.sum(result.refined != result.coarse))}
 
 
 def _compared(noisy, plan, bands, recording, events, settings):

@@ -33,7 +33,7 @@ from pipeline.physics.stability.draw_statistics import (
 )
 from pipeline.physics.stability.sampled_roots import sampled
 from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import beside_whole
+from pipeline.physics.stability.whole_roots import accuracy, beside_whole
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel
 
 TWO_PI = 2.0 * np.pi
@@ -96,7 +96,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         scatter=[standard_deviation(s, errors) for s in settings.sources], value=values,
         pressure=np.repeat(model.pressure, len(points.speeds)), speed=np.tile(points.speeds, len(model.pressure)),
         **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),
-        **_accuracy(checked), least_growth=settings.least_growth, squeal_from=points.squeal_from)
+        **accuracy(checked), least_growth=settings.least_growth, squeal_from=points.squeal_from)
 
 
 def _refuse_effects(effects, settings):
@@ -143,14 +143,6 @@ def _checks(cases, drawn, points, settings):
 def _checked(points, task):
     case, speed, factors = task
     return beside_whole(case, factors, speed, points.frequency_max)
-
-
-def _accuracy(checked):
-    """Fields of the comparison with the whole model."""
-    none = np.empty(0, complex)
-    return {"checked_root": np.concatenate([none, *(c[0] for c in checked)]),
-            "whole_root": np.concatenate([none, *(c[1] for c in checked)]),
-            "checked_draws": len(checked), "missed": sum(int(c[2]) for c in checked)}
 
 
 def _results(roots, values, points, operating, settings):

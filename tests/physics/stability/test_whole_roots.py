@@ -8,7 +8,7 @@ import scipy
 
 from pipeline.physics.sliding.equilibrium import closure_response, model_about, steady_sliding
 from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import beside_whole, whole_roots
+from pipeline.physics.stability.whole_roots import accuracy, beside_whole, whole_roots
 from tests.physics.stability.scattered_block import draws, family
 
 
@@ -43,3 +43,10 @@ def test_roots_beside_those_of_the_whole_model_and_those_that_only_one_has():
     assert beside_whole(without, NOMINAL, 2.0, 20e3)[2] == len(growing)
     beside = SimpleNamespace(family=family(), roots=lambda factors, speed: np.append(whole, 50 + 1234j))
     assert beside_whole(beside, NOMINAL, 2.0, 20e3)[2] == 1
+
+
+def test_all_draws_are_told_together():
+    one, other = (np.array([1 + 2j]), np.array([1 + 2.1j]), np.int64(1)), (np.empty(0), np.empty(0), np.int64(2))
+    told = accuracy([one, other])
+    assert told == {"checked_root": one[0], "whole_root": one[1], "checked_draws": 2, "missed": 3}
+    assert accuracy([])["whole_root"].dtype == complex and accuracy([])["missed"] == 0
