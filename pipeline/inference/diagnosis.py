@@ -1,6 +1,6 @@
 """What a diagnosis comes to: how its refits are weighed and decided, and how far that hangs on the level of noise."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Optional
 
 from pipeline.contract.errors import ConvergenceError
@@ -10,6 +10,9 @@ from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.refitting import Refits
 from pipeline.inference.rules import DEFAULTS, Rules
+
+#: verdicts that rest on the null alone
+_NOTHING = ("consistent", "parameters")
 
 
 @dataclass(frozen=True)
@@ -99,10 +102,13 @@ class Diagnosis:
 
 def decided(refits, settings, base, laws=1):
     """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
-    converged."""
+    converged, however often the null begins again."""
     weighing, decision = _weighed(refits, settings, base and base.null, laws)
+    if not refits.calibration.null.converged and decision.verdict in _NOTHING:
+        refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))
+        weighing, decision = _weighed(refits, settings, base and base.null, laws)
     null = refits.calibration.null
-    if not null.converged and decision.verdict in ("consistent", "parameters"):
+    if not null.converged and decision.verdict in _NOTHING:
         raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
                                f"none after {null.evaluations} predictions", "check the nominal values and priors")
     return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)

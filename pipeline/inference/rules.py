@@ -45,7 +45,8 @@ class RefitRules:
                                         " step is halved")
     step_shift: float = threshold(0.5, "standard deviations that this change may shift one of its values")
     halvings: int = threshold(3, "times that the time step of a candidate may be halved")
-    restarts: int = threshold(2, "times that the fit of the leading candidate begins again where it does not converge")
+    restarts: int = threshold(2, "times that the fit of the leading candidate, or of the nominal model where nothing is"
+                                 " missing, begins again where it does not converge")
     better_by: float = threshold(1.0, "decrease of the objective at which the nominal model is refitted from a"
                                       " candidate's optimum")
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference.fitting.fit_state import FAR, Fit, linearised, refreshed, whitened
-from pipeline.inference.fitting.least_squares import continued, iterated
+from pipeline.inference.fitting.least_squares import again, continued, iterated
 from pipeline.inference.problem import Problem
 from pipeline.inference.rules import DEFAULTS
 
@@ -47,6 +47,16 @@ class Calibration:
         """This Calibration with the best of further ``fits`` (Fit or None) of the null, where that is better."""
         best = min([self.null, *(fit for fit in fits if fit is not None)], key=lambda fit: fit.objective)
         return replace(self, null=best) if best.objective < self.null.objective - rules.better_null else self
+
+    def gone_on(self, restarts):
+        """This Calibration, its null gone on with until it has converged, so many times at most: first as it is, whose
+        iterations may have been too few, then with differences over wide steps."""
+        null = self.null
+        for k in range(restarts):
+            if null.converged:
+                break
+            null = continued(self.problem, again(self.problem, null) if k else null)
+        return replace(self, null=null)
 
 
 def recalibrate(problem, budget, rules, start=None):

@@ -296,7 +296,8 @@ class Refitter:
         nominal = fit.latent[:len(self.null.latent)]
         return self.better(results, {
             i: np.concatenate((nominal, least(self.catalogue[i], starts[i]))) for i in alike
-            if self.catalogue[i].effects[0][1:] != place and self._short_of(fit, results[i])}, self._near(fit))
+            if self.catalogue[i].effects[0][1:] != place and self._short_of(fit, results.get(i, NOT_BEGUN))},
+                           self._near(fit))
 
     def _ended(self, chosen, begins, results):
         """{index: Refitted} of ``results`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""

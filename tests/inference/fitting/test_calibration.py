@@ -1,11 +1,21 @@
 """Calibration: several starts, easier problems on the way, what stops it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.fitting import calibration
-from pipeline.inference.fitting.calibration import _distinct, _under, ahead_of, begun, calibrate, paired_anew
+from pipeline.inference.fitting.calibration import (
+    Calibration,
+    _distinct,
+    _under,
+    ahead_of,
+    begun,
+    calibrate,
+    paired_anew,
+)
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget
@@ -135,3 +145,16 @@ def test_a_model_that_cannot_settle_is_not_called_converged():
                                     (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: 9 * x, 0.01)
     with pytest.raises(ConvergenceError, match="not converged after"):
         calibrate(problem, noises, problem.nominal, [np.zeros(1)], problem.runs)
+
+
+def test_a_null_that_ended_early_goes_on():
+    parameters = (Parameter("rate", "1/s", 3.0, Normal(3.0, 2.0)), Parameter("size", "m", 1.0, Normal(1.0, 1.0)))
+    problem, noises = curve_problem(lambda v, x: v["size"] * np.exp(-v["rate"] * x), parameters,
+                                    lambda x: 2.5 * np.exp(-6.0 * x), 0.01)
+    late = fit(problem, noises, problem.nominal, problem.nominal.nominal, problem.runs)
+    early = fit(problem, noises, problem.nominal, problem.nominal.nominal, problem.runs, iterations=1)
+    begun = Calibration(problem, {}, replace(early, converged=False))
+    assert late.converged and early.objective > late.objective + 10
+    assert begun.gone_on(0) == begun
+    told = begun.gone_on(2).null
+    assert told.converged and told.objective == pytest.approx(late.objective, abs=0.01)
