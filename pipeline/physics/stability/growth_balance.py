@@ -126,12 +126,13 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     ``friction``: FrictionState or coefficient of steady sliding, ``shape`` (n,) complex, ``losses``: its Losses.
     ``viscous``: see ``Losses.parts``. The friction of the contacts of each body is a term, 'friction at <body>'; the
     part of a contact is that of its friction of all kinds and of its damping. Terms add up to the growth rate, by what
-    is left of it if that has the name ``remainder``.
+    is left of it if that has the name ``remainder``. Of a real root, where nothing oscillates, the others are 0.
     """
     contacts, state = model.contacts, friction if isinstance(friction, FrictionState) else FrictionState(friction)
     inertia = 2 * root.imag * (shape.conj() @ model.mass @ shape).real
     if gyroscopic:
         inertia += model.speed * (shape.conj() @ model.gyroscopic @ shape).imag
+    inertia = inertia or np.inf
     normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
     pressed = model.coupling(state) * (contacts.stiffness + root * contacts.damping) * normal
     drawn = -(tangent.conj() * pressed).imag / inertia

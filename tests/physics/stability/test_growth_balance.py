@@ -203,3 +203,10 @@ def test_losses_are_read_off_sparse_matrices_with_imaginary_stiffnesses():
     assert terms == pytest.approx(expected) and list(terms) == list(expected)
     np.testing.assert_allclose(parts, contacts)
     assert terms["damping at abutment"] < 0 and terms[f"{BODY}{dense.body_name[1]}"] != 0
+
+
+def test_a_root_that_does_not_oscillate_has_no_balance():
+    """A brake that gives way without vibrating: nothing is divided by an inertia of 0."""
+    model, losses, _, shapes = model_and_mode()
+    terms, parts = growth_terms(model, STATE, 3.0 + 0j, shapes[:, 0].real.astype(complex), losses, remainder=EFFECTS)
+    assert terms.pop(EFFECTS) == 3.0 and not any(terms.values()) and not parts.any()
