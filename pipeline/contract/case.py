@@ -115,8 +115,9 @@ class CaseFile:
     def card(self, version):
         """What the report may say about the case."""
         leaves = {s.name: list(settings.leaves(self.sections[s.name])) for s in self.stages}
-        values, units, meanings, idle = ({name: {row[0]: row[i] for row in rows} for name, rows in leaves.items()}
-                                         for i in (1, 2, 3, 4))
+        values, units, meanings, idle = ({name: {leaf.key: getattr(leaf, what) for leaf in each}
+                                          for name, each in leaves.items()}
+                                         for what in ("value", "unit", "meaning", "idle"))
         values = {name: {key: _file_name(value) for key, value in rows.items()} for name, rows in values.items()}
         origins = {s.name: {key: _origin(self.given(s), key.split(".")) for key in values[s.name]} for s in self.stages}
         methods = {s.name: s.method for s in self.stages}

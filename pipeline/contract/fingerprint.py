@@ -53,7 +53,7 @@ def settings_of(section):
 
     A file is represented by the digest of its content and of those that it includes.
     """
-    return {key: _plain(value) for key, value, *_ in leaves(section)} | dict(statements(section))
+    return {leaf.key: _plain(leaf.value) for leaf in leaves(section)} | dict(statements(section))
 
 
 def _plain(value):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from types import UnionType
-from typing import Annotated, ClassVar, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, NamedTuple, Union, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -256,11 +256,21 @@ def fill(cls, values, where, context=None):
         raise ConfigError("\n".join(_sentence(cls, e, where) for e in error.errors())) from None
 
 
-def leaves(section, prefix=""):
-    """Yield (dotted key, value, SI unit or "", meaning, idle) of every setting of a filled section.
+class Leaf(NamedTuple):
+    """One setting of a filled section: its dotted ``key``, ``value``, SI ``unit`` or '', and ``meaning``.
 
     ``idle``: the dotted key of the setting that would give it an effect; '' where it has one.
     """
+
+    key: str
+    value: Any
+    unit: str
+    meaning: str
+    idle: str
+
+
+def leaves(section, prefix=""):
+    """Yield the Leaf of every setting of a filled section."""
     idle = {name: f"{prefix}{other}" for other, names in section.only_with.items() if not getattr(section, other)
             for name in names}
     for name, info in type(section).model_fields.items():
@@ -271,7 +281,7 @@ def leaves(section, prefix=""):
             for index, item in value.items() if isinstance(value, dict) else enumerate(value):
                 yield from leaves(item, f"{key}.{index}.")
         else:
-            yield key, value, _unit(info), info.description or "", idle.get(name, "")
+            yield Leaf(key, value, _unit(info), info.description or "", idle.get(name, ""))
 
 
 def statements(section, prefix=""):

@@ -11,9 +11,6 @@ from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.refitting import Refits
 from pipeline.inference.rules import DEFAULTS, Rules
 
-#: verdicts that rest on the null alone
-_NOTHING = ("consistent", "parameters")
-
 
 @dataclass(frozen=True)
 class Settings:
@@ -104,14 +101,19 @@ def decided(refits, settings, base, laws=1):
     """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
     converged, however often the null begins again."""
     weighing, decision = _weighed(refits, settings, base and base.null, laws)
-    if not refits.calibration.null.converged and decision.verdict in _NOTHING:
+    if _rests_on_unfinished(refits, decision):
         refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))
         weighing, decision = _weighed(refits, settings, base and base.null, laws)
-    null = refits.calibration.null
-    if not null.converged and decision.verdict in _NOTHING:
+    if _rests_on_unfinished(refits, decision):
+        null = refits.calibration.null
         raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
                                f"none after {null.evaluations} predictions", "check the nominal values and priors")
     return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
+
+
+def _rests_on_unfinished(refits, decision):
+    """Whether a Decision says that nothing is missing, of a null that has not converged."""
+    return not refits.calibration.null.converged and decision.verdict in ("consistent", "parameters")
 
 
 def _weighed(refits, settings, null, laws, objected=None):

@@ -76,10 +76,10 @@ def test_any_text_is_a_finite_quantity_or_refused(text, unit):
 
 
 QUANTITIES = sorted(
-    (stage, key, unit)
+    (stage, leaf.key, leaf.unit)
     for stage in stages.NAMES
-    for key, value, unit, _, *_ in leaves(stages.load(stage).settings())
-    if unit and isinstance(value, float) and not any(s.isdigit() for s in key.split("."))
+    for leaf in leaves(stages.load(stage).settings())
+    if leaf.unit and isinstance(leaf.value, float) and not any(s.isdigit() for s in leaf.key.split("."))
 )
 
 

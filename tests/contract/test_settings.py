@@ -70,7 +70,7 @@ def test_origins_are_split_from_values():
 
 
 def test_leaves_tell_units_and_meanings():
-    told = {key: (value, unit, meaning) for key, value, unit, meaning, _ in leaves(Settings())}
+    told = {leaf.key: (leaf.value, leaf.unit, leaf.meaning) for leaf in leaves(Settings())}
     assert told["ring.thickness"] == (pytest.approx(0.00687), "m", "ring thickness")
     assert told["pressures"] == ((1e6, 2e6), "Pa", "pressures") and told["steps"] == (41, "", "steps")
 
@@ -84,8 +84,8 @@ def test_leaves_tell_what_has_no_effect():
     class Pad(Section):
         shim: Shim = option(Shim(), "shim")
 
-    assert {key: idle for key, *_, idle in leaves(Pad())} == {"shim.rubber": "", "shim.density": "shim.rubber"}
-    assert not any(idle for *_, idle in leaves(Pad(shim=Shim(rubber=1e-4))))
+    assert {leaf.key: leaf.idle for leaf in leaves(Pad())} == {"shim.rubber": "", "shim.density": "shim.rubber"}
+    assert not any(leaf.idle for leaf in leaves(Pad(shim=Shim(rubber=1e-4))))
 
 
 def test_a_document_of_a_folder_is_named_and_others_are_files(tmp_path):

@@ -59,8 +59,8 @@ class Declared:
 def known_values(sections):
     """{name: (value, unit)} of what ``sections`` {section: settings} state above 0 and natural frequencies depend on:
     values of bodies, stiffnesses of joints."""
-    found = {f"{section}.{key}": (value, unit) for section, settings in sections.items()
-             for key, value, unit, *_ in leaves(settings) if isinstance(value, float) and value > 0}
+    found = {f"{section}.{leaf.key}": (leaf.value, leaf.unit) for section, settings in sections.items()
+             for leaf in leaves(settings) if isinstance(leaf.value, float) and leaf.value > 0}
     return {name: each for name, each in found.items()
             if (name.endswith("stiffness") if name.split(".")[0] in JOINED
                 else not name.endswith(_DAMPING + _ELSEWHERE))}

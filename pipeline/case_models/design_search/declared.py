@@ -27,7 +27,7 @@ Range = section("Range", "How far one setting may go: between two ends, or one o
 
 def stated(sections):
     """{'stage.key': (value, SI unit)} of all settings."""
-    return {f"{stage}.{row[0]}": row[1:3] for stage, each in sections.items() for row in leaves(each)}
+    return {f"{stage}.{leaf.key}": (leaf.value, leaf.unit) for stage, each in sections.items() for leaf in leaves(each)}
 
 
 def numbers(every):

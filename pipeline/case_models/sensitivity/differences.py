@@ -48,7 +48,8 @@ def raised_and_lowered(sections):
 def _setting(sections, name, where):
     """(value, SI unit) of a setting."""
     stage, _, key = name.partition(".")
-    numbers = {row[0]: row[1:3] for row in leaves(sections[stage]) if isinstance(row[1], float) and row[1]} \
+    numbers = {leaf.key: (leaf.value, leaf.unit) for leaf in leaves(sections[stage])
+               if isinstance(leaf.value, float) and leaf.value} \
         if stage in STAGES and stage in sections else {}
     if key not in numbers:
         near = f"one of {', '.join(f'{stage}.{known}' for known in list(numbers)[:8])}, ..." if numbers else \

@@ -53,7 +53,7 @@ def written(value, unit):
     return ", ".join(written(v, unit) for v in value) if many else str(value)
 
 
-def idle(case, stage, key):
+def _idle(case, stage, key):
     """'no effect while hat_height is 0 m' of a setting that has none as the case stands; '' of others."""
     other = case.idle.get(stage, {}).get(key, "")
     value, unit = case.settings.get(stage, {}).get(other), case.units.get(stage, {}).get(other, "")
@@ -62,7 +62,7 @@ def idle(case, stage, key):
 
 def _row(case, stage, key, value):
     origin = case.origins.get(stage, {}).get(key, {})
-    said = origin.get("source", ""), origin.get("doubt", ""), idle(case, stage, key)
+    said = origin.get("source", ""), origin.get("doubt", ""), _idle(case, stage, key)
     return {"key": key, "meaning": case.meanings.get(stage, {}).get(key, ""),
             "value": written(value, case.units.get(stage, {}).get(key, "")), "origin": origin.get("origin", "default"),
             "source": "; ".join(filter(None, said))}

@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.views.chapters.chapter import Table
 from pipeline.views.chapters.models.sensitivities import in_words
 from pipeline.views.figures.number_format import percent, plural, quantity
-from pipeline.views.pages.case_settings import idle, written
+from pipeline.views.pages.case_settings import written
 
 DEFAULT, ASSUMED = "default", "assumed"
 #: settings that decide on flutter, those first that commonly matter most, and the source of scatter that they belong to
@@ -86,7 +86,8 @@ def _rows(case, products):
             name = f"{stage}.{key}"
             rank = next((k for k, (pattern, _) in enumerate(DECIDING) if fnmatchcase(name, pattern)), None)
             origin = case.origins.get(stage, {}).get(key, {}).get("origin", DEFAULT)
-            if rank is None or value is None or name in given or idle(case, stage, key) or _lacks(brake, name, rank):
+            idle = case.idle.get(stage, {}).get(key)
+            if rank is None or value is None or name in given or idle or _lacks(brake, name, rank):
                 continue
             if origin in (DEFAULT, ASSUMED):
                 rows.append((name, DECIDING[rank][1], written(value, case.units.get(stage, {}).get(key, "")), origin,

@@ -80,9 +80,9 @@ def test_what_is_one_change_at_other_nominal_values_is_led_over():
     assert 1 in seeking.with_imitators(best, [np.zeros(1)] * 2)
     for begun_before in ({**best, 1: NOT_BEGUN}, best):     # without, where the race was given up
         told = seeking._led_over(0, [np.zeros(1)] * 2, [1], begun_before)[1].fit
-    assert told.converged and told.chi_square.sum() < 1.1 * told.counts.sum()
-    assert told.values["added_stiffness"] / resonance.STIFFNESS == pytest.approx(1 / 0.69 - 1, rel=0.02)
-    assert told.values["mass"] == pytest.approx(1 / 0.69, rel=0.02)
+        assert told.converged and told.chi_square.sum() < 1.1 * told.counts.sum()
+        assert told.values["added_stiffness"] / resonance.STIFFNESS == pytest.approx(1 / 0.69 - 1, rel=0.02)
+        assert told.values["mass"] == pytest.approx(1 / 0.69, rel=0.02)
 
 
 def test_all_begins_anew_where_the_null_was_at_a_wrong_optimum(monkeypatch):
