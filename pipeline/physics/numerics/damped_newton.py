@@ -4,6 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+#: singular values below this share of the largest are none; error of a solve, relative, from which it tells nothing
+_SINGULAR, _UNSOUND = 1e-12, 1e-3
+
 
 class Balance(NamedTuple):
     """Where Newton's method ended: ``unknown`` (n,), the next ``step`` (n,) from there, not taken, and its size
@@ -19,14 +22,12 @@ def damped_newton(equation, start, size, tolerance, steps, halvings):
 
     ``equation(unknown)`` gives what is missing (n,), its derivative (n, n), and whatever else ``size(step, ...)`` asks
     for to tell how much a step would change. After ``steps`` steps, each halved up to ``halvings`` times, it gives up.
+    Where the derivative is singular, as that of a body that touches nothing, the shortest step is taken that does best.
     """
     unknown, (miss, derivative, *more) = start, equation(start)
     for _ in range(steps):
-        try:
-            step = np.linalg.solve(derivative, miss)
-        except np.linalg.LinAlgError:
-            return Balance(unknown, np.zeros_like(unknown), np.inf)
-        error = size(step, *more)
+        step, sound = _step(derivative, miss)
+        error = size(step, *more) if sound else np.inf
         if error <= tolerance:
             break
         for length in 0.5 ** np.arange(halvings):
@@ -35,3 +36,15 @@ def damped_newton(equation, start, size, tolerance, steps, halvings):
                 break
         unknown, (miss, derivative, *more) = unknown - length * step, trial
     return Balance(unknown, step, error)
+
+
+def _step(derivative, miss):
+    """(Step (n,), whether it follows from the ``derivative`` (n, n) beyond its rounding)."""
+    try:
+        step = np.linalg.solve(derivative, miss)
+        rounding = np.finfo(float).eps * np.linalg.norm(derivative) * np.linalg.norm(step)
+        if rounding <= _UNSOUND * np.linalg.norm(miss):
+            return step, True
+    except np.linalg.LinAlgError:
+        pass
+    return np.linalg.lstsq(derivative, miss, rcond=_SINGULAR)[0], False
