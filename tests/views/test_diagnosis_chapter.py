@@ -187,3 +187,11 @@ def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_the
     none = dict.fromkeys(("combination", "combination_gain", "combination_refitted", "combination_objective",
                           "combination_held_out", "combination_outcome"), [])
     assert all(t.title != title for t in chapter(changed(diagnosis(), **none), Look()).tables)
+
+
+def test_hypotheses_of_no_stage_have_no_map_of_stages():
+    """Of lines of a disc alone: every rival is of the recordings or of the model as a whole."""
+    found = diagnosis()
+    told, without = ([str(figure) for figure in chapter(each, Look()).figures]
+                     for each in (found, changed(found, stage=[""] * len(found.stage))))
+    assert len(without) == len(told) - 1 and not any("by stage" in figure for figure in without)
