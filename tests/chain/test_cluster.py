@@ -9,17 +9,15 @@ import pytest
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from tests.blind_trial.protocol.their_set import their_set
 from tests.chain.conftest import QUICK, ROOT, brakechain, contents
-from tests.contract.executors.dask_processes import address_of, scheduler, worker
+from tests.contract.executors.dask_processes import address_of, cluster, scheduler, worker
 
 pytest.importorskip("distributed")
 
 
 @pytest.mark.slow
 def test_the_same_bits_come_back(tmp_path, finished):
-    with scheduler() as started:
-        address = address_of(started)
-        with worker(address, 2, tmp_path):
-            brakechain("run", QUICK, "--run", tmp_path / "run", "--scheduler", address)
+    with cluster(tmp_path) as address:
+        brakechain("run", QUICK, "--run", tmp_path / "run", "--scheduler", address)
     assert contents(tmp_path / "run") == contents(finished)
 
 
@@ -27,10 +25,8 @@ def test_the_same_bits_come_back(tmp_path, finished):
 def test_a_trial_is_solved_alike(tmp_path):
     here, there = their_set(tmp_path / "here"), their_set(tmp_path / "there")
     brakechain("trial", "solve", here, "--methods", "diagnosis", "--workers", 1)
-    with scheduler() as started:
-        address = address_of(started)
-        with worker(address, 2, tmp_path):
-            brakechain("trial", "solve", there, "--methods", "diagnosis", "--scheduler", address)
+    with cluster(tmp_path) as address:
+        brakechain("trial", "solve", there, "--methods", "diagnosis", "--scheduler", address)
     one, other = ({number: {**told, "cpu_seconds": None} for number, told in answers(folder).items()}
                   for folder in (here, there))
     assert one == other and [one[number]["verdict"] for number in sorted(one)] == ["parameters", "missing"]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.contract.executors.dask_processes import address_of, scheduler, worker
+from tests.contract.executors.dask_processes import cluster
 from tests.studies.kills import CASES, undisturbed
 
 pytest.importorskip("distributed")
@@ -16,7 +16,5 @@ def test_workers_change_no_bit(case, tmp_path):
     one = undisturbed(case, tmp_path / "one").content
     assert "report.html" in one and None not in one.values()
     assert undisturbed(case, tmp_path / "two", ("--workers", "2")).content == one
-    with scheduler() as started:
-        address = address_of(started)
-        with worker(address, 2, tmp_path / "workers"):
-            assert undisturbed(case, tmp_path / "there", ("--scheduler", address)).content == one
+    with cluster(tmp_path / "workers") as address:
+        assert undisturbed(case, tmp_path / "there", ("--scheduler", address)).content == one

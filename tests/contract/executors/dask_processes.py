@@ -43,6 +43,15 @@ def worker(address, count, folder, code=ROOT):
                    "--local-directory", str(folder), code=code)
 
 
+@contextmanager
+def cluster(folder):
+    """Address of a scheduler with two workers, ended with the test."""
+    with scheduler() as started:
+        address = address_of(started)
+        with worker(address, 2, folder):
+            yield address
+
+
 def kill(started):
     """End a Dask process and all of its children as a lost machine would."""
     with suppress(ProcessLookupError):

@@ -269,7 +269,7 @@ def _figures(product):
     yield _map(product)
     if len(product.hypothesis) > 1:
         yield Figure(pictures.hypotheses(product), "Probabilities of the leading hypotheses; blue: named.")
-    if any(map(str, product.stage)):        # none of a bench whose only rivals are its sensors
+    if any(product.stage):      # rivals of recordings, or of the model as a whole, are of no stage
         yield Figure(pictures.stage_place(product), "Probability by stage of the chain and location, summed over"
                      " hypotheses; empty: no hypothesis in the catalogue.")
     name, held_out = _shown_run(product)
