@@ -73,7 +73,7 @@ def beam(stations, degree, section):
 
 def _polynomials(degree):
     """(Lobatto points (p + 1,), slopes and values (q, p + 1) at Gauss points, Gauss weights (q,)) on -1..1."""
-    inside = legendre.legroots(legendre.legder([0] * degree + [1])) if degree > 1 else []
+    inside = legendre.legroots(legendre.legder([0] * degree + [1])).real if degree > 1 else []    # NumPy 2.5: complex
     place = np.r_[-1.0, inside, 1.0]
     point, weight = legendre.leggauss(degree + 1)
     coefficients = np.linalg.inv(legendre.legvander(place, degree))

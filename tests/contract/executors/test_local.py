@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,11 @@ def work(seed):
     """A task whose bits depend on the number of threads."""
     a = np.random.default_rng(seed).standard_normal((300, 300))
     return (a @ a).tobytes()
+
+
+def strides(item, whole):
+    """How two arrays lie in a worker, and a column that it gives back."""
+    return item.strides, whole.strides, np.ones((5, 3))[:, 0]
 
 
 def fail(item):
@@ -41,6 +47,20 @@ def test_local_processes_give_the_bits_of_this_process():
     with running(LocalProcesses(2)) as pool:
         there = pool.map(work, range(5), lambda: counted.append(1))
     assert there == InProcess().map(work, range(5), lambda: None) and len(counted) == 5
+
+
+@pytest.mark.parametrize("executor", [InProcess(), LocalProcesses(2)], ids=["here", "processes"])
+def test_arrays_with_gaps_are_gapless_wherever_a_task_runs(executor):
+    """BLAS adds up a column of an array in another order than the same numbers side by side: other last bits."""
+    column = np.ones((16, 3))[:, 1]
+    with running(executor):
+        (item, whole, given), = executor.map(partial(strides, whole=np.ones((4, 4))[:, 1]), [column], lambda: None)
+    assert (item, whole, given.strides) == ((8,), (8,), (8,)) and column.strides == (24,)
+
+
+def test_what_is_whole_is_not_copied_here():
+    given, = InProcess().map(np.asfortranarray, [array := np.ones((200, 300), order="F")], lambda: None)
+    assert np.shares_memory(given, array) and given.flags.f_contiguous and given.flags.writeable
 
 
 @pytest.mark.parametrize("executor", [InProcess(), LocalProcesses(2)], ids=["here", "processes"])
