@@ -10,9 +10,13 @@ from pipeline.physics.numerics.sparse_solver import factorise
 _TOLERANCE = 1e-7
 #: automatic shift: share of the largest ratio of stiffness and mass diagonals
 _DIAGONAL_SHARE = 1e-6
+#: where between zero and the limit the shift lies that modes below a limit are found from, as a share of its square
+_AMID = 0.5
 #: below this size, dense
 _DENSE = 400
 _BLOCK = 8
+#: rows of vectors that are combined at once
+_ROWS = 4096
 #: most Lanczos vectors per mode
 _LONGEST = 8
 _CHECK_EVERY = 2
@@ -73,29 +77,36 @@ def _offset(stiffness, mass):
 
 
 def _below(stiffness, mass, solver, below):
-    """Squared angular frequencies (m,) below a frequency, ascending, and shapes (n, m).
+    """Squared angular frequencies (m,) below a frequency and shapes (n, m).
 
-    One factor of K - (2 pi below)^2 M serves twice: its inertia counts them, and its inverse turns them into its
-    negative eigenvalues, all of which Lanczos' method must find.
+    The inertia of K - (2 pi below)^2 M counts them. Lanczos' method with a shift amid their range finds them: as they
+    lie on both sides of it, they are those whose shifted and inverted eigenvalues are largest in magnitude.
     """
     limit = (2 * np.pi * below)**2
-    factor = factorise(stiffness - limit * mass, solver)
+    size, count = stiffness.shape[0], _counted(stiffness, mass, solver, limit).negative
+    if not count:
+        return np.zeros(0), np.zeros((size, 0))
+    if _is_dense(size, count):
+        square, shape = _dense(stiffness, mass, count)
+    else:
+        factor = _counted(stiffness, mass, solver, _AMID * limit)
+        beneath = factor.negative
+        shifted, shape = _lanczos(factor, mass, count - beneath, beneath, 1 / (limit - _AMID * limit))
+        _refuse_inaccurate(factor, mass, shifted, shape)
+        square = _quotients(stiffness, shape)       # far from the shift better than by its eigenvalue
+    if not (square < limit).all():
+        raise ConvergenceError("lowest_modes", f"{count} modes below {below:g} Hz (inertia)",
+                               str(int((square < limit).sum())), "change the frequency limit a little")
+    return square, shape
+
+
+def _counted(stiffness, mass, solver, shift):
+    """Factor of K - shift M with the number of its negative eigenvalues."""
+    factor = factorise(stiffness - shift * mass, solver)
     if factor.negative is None:
         raise ConvergenceError("lowest_modes", "a factor without row exchanges to count modes", "exchanges",
                                "change the frequency limit a little, or use the solver pypardiso")
-    size = stiffness.shape[0]
-    if not factor.negative:
-        return np.zeros(0), np.zeros((size, 0))
-    if _is_dense(size, factor.negative):
-        square, shape = _dense(stiffness, mass, factor.negative)
-    else:
-        shifted, shape = _lanczos(factor, mass, factor.negative, -1)
-        _refuse_inaccurate(factor, mass, shifted, shape)
-        square = np.einsum("nm,nm->m", shape, stiffness @ shape)    # far from the shift better than by its eigenvalue
-    if not (square < limit).all():
-        raise ConvergenceError("lowest_modes", f"{factor.negative} modes below {below:g} Hz (inertia)",
-                               str(int((square < limit).sum())), "change the frequency limit a little")
-    return square, shape
+    return factor
 
 
 def _solve(stiffness, mass, solver, count, offset):
@@ -120,15 +131,16 @@ def _dense(stiffness, mass, count):
     return square[:count], shape[:, :count]
 
 
-def _lanczos(factor, mass, count, sign=1):
-    """The ``count`` eigenvalues of (A, M) of this ``sign`` next to zero, ascending, and their vectors; of those below
-    zero all there are. ``factor`` solves with A.
+def _lanczos(factor, mass, above, beneath=0, edge=None):
+    """Eigenvalues of (A, M) next to zero, ``above`` of them above it and ``beneath`` below, where there are no others,
+    and their vectors, in no order. Of ``edge``, the smallest inverse of those above, no more may be found.
 
     Block Lanczos on A^-1 M with full reorthogonalisation in the mass norm (Grimes, Lewis and
     Simon 1994, without restart): whole blocks keep double modes together and solve several
     right-hand sides at once.
     """
-    size, most = mass.shape[0], min(_LONGEST * count + 20 * _BLOCK, mass.shape[0] // 2)
+    size, count = mass.shape[0], above + beneath
+    most = min(_LONGEST * count + 20 * _BLOCK, size // 2)
     basis, inverse = np.empty((size, most + _BLOCK), order="F"), np.zeros((most + _BLOCK, most + _BLOCK))
     start = factor.solve(mass @ np.random.default_rng(0).standard_normal((size, _BLOCK)))
     basis[:, :_BLOCK], inertia, _ = _orthonormal(start, mass)       # M times the last block, then the last two
@@ -142,20 +154,44 @@ def _lanczos(factor, mass, count, sign=1):
         basis[:, after], following, rest = _orthonormal(image, mass)
         inertia = np.hstack((inertia[:, -_BLOCK:], following))
         if done >= count and (done - count) // _BLOCK % _CHECK_EVERY == 0:
-            wanted = (done - count, done - 1) if sign > 0 else (0, count - 1)
-            value, vector = scipy.linalg.eigh(inverse[:done, :done], subset_by_index=wanted, lower=False)
+            value, vector = _ends(inverse[:done, :done], above, beneath)
             error = np.linalg.norm(rest @ vector[-_BLOCK:], axis=0) / abs(value)
-            if error.max() < _LANCZOS_TOLERANCE and (sign * value > 0).all():
-                if sign < 0:
-                    _refuse_uncounted(inverse[:done, :done], count)
-                return 1 / value[::-1], basis[:, :done] @ vector[:, ::-1]
+            if error.max() < _LANCZOS_TOLERANCE and (value > 0).sum() == above:
+                if edge is not None:
+                    _refuse_uncounted(inverse[:done, :done], count, edge)
+                return 1 / value, _combined(basis[:, :done], vector)
     raise ConvergenceError("lowest_modes", f"{count} modes within {most} Lanczos vectors", "less",
                            "change the shift or ask for fewer modes")
 
 
-def _refuse_uncounted(inverse, count):
-    """Of ``count`` eigenvalues below zero no more may be found (of fewer there are never more)."""
-    found = int((scipy.linalg.eigvalsh(inverse, lower=False) < 0).sum())
+def _combined(basis, vector):
+    """basis (n, k) @ vector (k, m), in the memory of the basis."""
+    count = vector.shape[1]
+    for rows in range(0, len(basis), _ROWS):
+        part = slice(rows, rows + _ROWS)
+        basis[part, :count] = basis[part] @ vector
+    return basis[:, :count]
+
+
+def _quotients(stiffness, shape):
+    """(m,) x.K x of mass-normalised shapes (n, m), a block at a time."""
+    blocks = (shape[:, k:k + _BLOCK] for k in range(0, shape.shape[1], _BLOCK))
+    return np.concatenate([np.einsum("nm,nm->m", block, stiffness @ block) for block in blocks])
+
+
+def _ends(inverse, above, beneath):
+    """The ``above`` largest eigenvalues, largest first, then the ``beneath`` smallest; and their vectors."""
+    size = len(inverse)
+    wanted = None if beneath else (size - above, size - 1)
+    value, vector = scipy.linalg.eigh(inverse, subset_by_index=wanted, lower=False)
+    ends = np.r_[len(value) - 1:len(value) - 1 - above:-1, :beneath]
+    return value[ends], vector[:, ends]
+
+
+def _refuse_uncounted(inverse, count, edge):
+    """Of ``count`` eigenvalues below zero or above ``edge`` no more may be found (of fewer there are never more)."""
+    value = scipy.linalg.eigvalsh(inverse, lower=False)
+    found = int(((value < 0) | (value > edge)).sum())
     if found != count:
         raise ConvergenceError("lowest_modes", f"{count} modes below the limit (inertia)", str(found),
                                "change the frequency limit a little")
@@ -172,10 +208,19 @@ def _orthonormal(block, mass):
 
 
 def _refuse_inaccurate(factor, mass, shifted, shape):
-    """Check (K + s M)^-1 M x = x / (lambda + s) in the mass norm."""
-    inertia = mass @ shape
-    miss = factor.solve(inertia) * shifted - shape
-    error = np.sqrt(np.maximum((miss * (mass @ miss)).sum(axis=0), 0))
+    """Check (K + s M)^-1 M x = x / (lambda + s) in the mass norm: of a few sums of all modes with seeded signs,
+    in which no error of a mode is lost, and of every mode where these miss it."""
+    count = shape.shape[1]
+    signs = np.where(np.random.default_rng(0).random((count, _BLOCK)) < 0.5, -1.0, 1.0)
+    mixed = shape @ signs, shape @ (signs * shifted[:, None])
+    if count > _BLOCK and _error(factor.solve(mass @ mixed[1]) - mixed[0], mass).max() < _TOLERANCE:
+        return
+    error = _error(factor.solve(mass @ shape) * shifted - shape, mass)
     if not error.max() < _TOLERANCE:
         raise ConvergenceError("lowest_modes", f"an error below {_TOLERANCE:g}",
                                f"{error.max():.1e} in mode {int(error.argmax()) + 1}", "change the shift")
+
+
+def _error(miss, mass):
+    """(m,) mass norms of columns (n, m)."""
+    return np.sqrt(np.maximum((miss * (mass @ miss)).sum(axis=0), 0))
