@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.closed_form.axisymmetric_disc import section_frequencies
@@ -133,3 +134,36 @@ def test_rigid_and_lowest_modes_are_as_good_far_below_the_limit():
     stiffness, mass = body(revolve(np.linspace(0.05, 0.15, 4), np.linspace(0, 2 * np.pi, 25), np.linspace(0, 0.01, 2)))
     near, far = (lowest_modes(stiffness, mass, FASTEST, below=below)[0] for below in (1500, 12000))
     assert far[:6].max() < 1e-3 * far[6] and far[6:len(near)] == pytest.approx(near[6:], rel=1e-9)
+
+
+@pytest.mark.parametrize(("lifted", "share", "beneath", "above"),
+                         [(0, 0.9, True, False), (2e5, 0.999, False, True), (0, 1.1, True, True)])
+def test_modes_on_either_side_of_the_shift_or_on_one(lifted, share, beneath, above):
+    """Of a free beam, lifted in squared frequency or not, below a share of its seventh mode: those of all modes."""
+    stiffness, mass = body(beam(20))
+    every = scipy.linalg.eigh(stiffness.toarray(), mass.toarray())[0] + lifted
+    limit = share**2 * every[6]
+    expected = np.maximum(every[every < limit], 0)
+    amid = natural_modes._AMID * limit
+    assert ((expected < amid).any(), (expected > amid).any()) == (beneath, above)
+    frequency, shape = lowest_modes(stiffness + lifted * mass, mass, FASTEST, below=np.sqrt(limit) / (2 * np.pi))
+    np.testing.assert_allclose((2 * np.pi * frequency)**2, expected, rtol=1e-7, atol=1e-7 * every[6])
+    np.testing.assert_allclose(shape.T @ (mass @ shape), np.eye(len(expected)), atol=1e-8)
+
+
+@pytest.mark.parametrize("spoilt", [0, 17])
+@pytest.mark.parametrize("wanted", [{"count": 30}, {"below": 30000}])
+def test_one_mode_in_many_that_misses_its_equation_is_told(wanted, spoilt, monkeypatch):
+    """The check of a few sums of all modes loses none of them, and names which one it is."""
+    stiffness, mass = body(beam(20))
+    honest = natural_modes._lanczos
+
+    def spoiled(*arguments):
+        shifted, shape = honest(*arguments)
+        shape[:, spoilt] += 1e-4 * shape[:, spoilt - 1]
+        return shifted, shape
+
+    assert len(lowest_modes(stiffness, mass, FASTEST, **wanted)[0]) > 20
+    monkeypatch.setattr(natural_modes, "_lanczos", spoiled)
+    with pytest.raises(ConvergenceError, match=f"in mode {spoilt + 1}"):
+        lowest_modes(stiffness, mass, FASTEST, **wanted)
