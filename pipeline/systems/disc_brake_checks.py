@@ -10,6 +10,10 @@ from pipeline.systems.disc_brake_pad import refuse_beside_file, refuse_unfit_sha
 SAME_HEIGHT = 1e-6
 #: thinnest layer of elements of a disc, share of its ring
 _THINNEST = 0.02
+#: a mount counts as rigid when the web bends into it over less than this share of the clamped width
+_BENDING_SHARE = 0.25
+#: decay length of contact pressure with separation, share of the rms height (Persson 2007, PRL 99, 125502)
+_SEPARATION_SHARE = 0.4
 
 
 def clamped_radius(parameters):
@@ -52,6 +56,25 @@ def refuse_unfit(parameters):
         meshed = getattr(parameters, where.split(".")[0]).mesh_file and not where.startswith("disc")
         if not holds and not meshed:
             raise ConfigError(f"structure.{where}", expected, actual)
+    if not d.mesh_file and not d.mount_group:
+        refuse_soft_mount(d)
+
+
+def refuse_soft_mount(disc, young=None):
+    """ConfigError for a disc whose mount is no rigid support.
+
+    Rough metal faces under pressure p are a foundation of stiffness k = p / (0.4 Sq) per area, into which the web bends
+    over the length (E t^3 / 3k)^(1/4). That must be far less than the clamped width. ``young``: E, by default the
+    stated one.
+    """
+    d, reach = disc, clamped_radius(disc)
+    pressure = d.bolt_count * d.bolt_preload / (np.pi * (reach**2 - d.bore_radius**2))
+    interface, width = pressure / (_SEPARATION_SHARE * d.flange_roughness), reach - d.bore_radius
+    bending = ((young or d.young) * d.web_thickness**3 / (3 * interface))**0.25
+    if bending > _BENDING_SHARE * width:
+        raise ConfigError("structure.disc.bolt_preload",
+                          f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",
+                          f"{bending:.2g} m", "tighten the bolts or smooth the flange")
 
 
 def _shape_of_disc(d):

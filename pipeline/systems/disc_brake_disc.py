@@ -11,14 +11,9 @@ from pipeline.decks.meshes.groups import named_nodes
 from pipeline.physics.fem.elasticity import isotropic
 from pipeline.physics.fem.holes import drilled
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
-from pipeline.systems.disc_brake_checks import SAME_HEIGHT, clamped_radius, hole_rows
+from pipeline.systems.disc_brake_checks import SAME_HEIGHT, clamped_radius, hole_rows, refuse_soft_mount
 from pipeline.systems.mesh_files.bodies import solid
 from pipeline.systems.solids import Solid
-
-#: a mount counts as rigid when the web bends into it over less than this share of the clamped width
-_BENDING_SHARE = 0.25
-#: decay length of contact pressure with separation, share of the rms height (Persson 2007, PRL 99, 125502)
-_SEPARATION_SHARE = 0.4
 
 
 def disc(parameters):
@@ -109,12 +104,9 @@ def _heights(p):
 
 
 def clamped_nodes(mesh, parameters, young=None):
-    """Nodes of the inner face that the bolts press on the hub: within the pressure cones of 30 degrees.
+    """Nodes of the inner face that the bolts press on the hub, which is rigid: within the pressure cones of 30 degrees.
 
-    The hub is rigid. Rough metal faces under pressure p are a foundation of stiffness k = p / (0.4 Sq)
-    per area, into which the web bends over the length (E t^3 / 3k)^(1/4). That must be far less than
-    the clamped width, else the mount is no rigid support (ConfigError). ``young``: E, by default the stated
-    one.
+    ``young``: E, by default the stated one. Refuses a mount that is no rigid support.
     """
     p, reach = parameters, clamped_radius(parameters)
     face = boundary_faces(mesh)
@@ -122,11 +114,5 @@ def clamped_nodes(mesh, parameters, young=None):
     bottom = (normal[:, 2] < -0.99) & (np.hypot(middle[:, 0], middle[:, 1]) < reach)
     if not bottom.any():
         raise ConfigError("structure.disc.mesh_file", f"faces towards -z within {reach:g} m to clamp", "none")
-    pressure = p.bolt_count * p.bolt_preload / (np.pi * (reach**2 - p.bore_radius**2))
-    interface, width = pressure / (_SEPARATION_SHARE * p.flange_roughness), reach - p.bore_radius
-    bending = ((young or p.young) * p.web_thickness**3 / (3 * interface))**0.25
-    if bending > _BENDING_SHARE * width:
-        raise ConfigError("structure.disc.bolt_preload",
-                          f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",
-                          f"{bending:.2g} m", "tighten the bolts or smooth the flange")
+    refuse_soft_mount(p, young)
     return np.unique(face[bottom])

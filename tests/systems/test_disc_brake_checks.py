@@ -18,7 +18,8 @@ def test_the_pressure_cones_have_a_half_angle_of_30_degrees():
     ({"caliper": Caliper(bridge_inner_radius="150 mm")}, "a bridge outside the disc"),
     ({"pad": Pad(inner_radius="60 mm")}, "pads that lie on the ring"),
     ({"disc": Disc(web_thickness="7 mm")}, "a web thinner than the ring"),
-    ({"disc": Disc(bolt_circle_radius="60 mm")}, "pressure cones end between bore and ring")])
+    ({"disc": Disc(bolt_circle_radius="60 mm")}, "pressure cones end between bore and ring"),
+    ({"disc": Disc(bolt_preload="100 N")}, "bolt_preload: expected a mount that the web enters by less")])
 def test_dimensions_that_do_not_fit(section, message):
     with pytest.raises(ConfigError, match=message):
         refuse_unfit(Settings(**section))
