@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 from dataclasses import replace
-from importlib.util import find_spec
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -25,12 +25,14 @@ _SKFEM_CORNERS = (0, 4, 3, 1, 7, 5, 2, 6)
 
 
 class NotInstalled(Exception):
-    """The program is not on this machine."""
+    """The program is not on this machine, or does not start there."""
 
 
 def _require(package):
-    if find_spec(package) is None:
-        raise NotInstalled(package)
+    try:
+        import_module(package)
+    except ImportError:
+        raise NotInstalled(package) from None
 
 
 def tamaas_contact(nodes=256):

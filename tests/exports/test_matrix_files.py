@@ -47,6 +47,7 @@ def test_unstable_roots_of_a_brake_come_back(brake, tmp_path):
     np.testing.assert_allclose(np.sort_complex(solved.roots.unstable_root), expected, rtol=1e-8)
 
 
+@pytest.mark.filterwarnings("ignore:The default value for `spmatrix`:DeprecationWarning")      # SciPy 1.18
 def test_both_formats_hold_the_same_numbers(brake, tmp_path):
     system = reduced_system(brake, 3)
     market = write_system(system, tmp_path / "market", "a test", FORMATS["mtx"])

@@ -27,7 +27,7 @@ from tests.contract.executors.dask_processes import address_of, kill, scheduler,
 from tests.studies.ledger import FOLDER
 
 ROOT = Path(__file__).parents[2]
-#: one case of every chain that needs no recording and takes at most a minute
+#: one case of every chain that needs no recording; all take about a minute, beam_geometry six or more
 CASES = ("two_mode_flutter", "wobbling_disc", "belt", "pin_on_disc", "beam_on_beam", "beam_geometry", "disc_table1",
          "bimaterial_rupture_quick", "disc_brake_quick")
 EXECUTORS = ("1", "2", "dask")

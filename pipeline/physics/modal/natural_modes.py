@@ -199,11 +199,12 @@ def _refuse_uncounted(inverse, count, edge):
 
 def _orthonormal(block, mass):
     """Mass-orthonormal basis Q of the columns, M Q, and R with block = Q R; Cholesky twice."""
-    inertia, upper = mass @ block, np.eye(block.shape[1])
+    inertia, identity = mass @ block, np.eye(block.shape[1])
+    upper = identity
     for _ in range(2):
         factor = scipy.linalg.cholesky(block.T @ inertia)
-        block, inertia = (scipy.linalg.solve_triangular(factor, b.T, trans="T").T for b in (block, inertia))
-        upper = factor @ upper
+        back = scipy.linalg.solve_triangular(factor, identity)      # few columns: a product is faster than solving
+        block, inertia, upper = block @ back, inertia @ back, factor @ upper
     return block, inertia, upper
 
 

@@ -25,9 +25,9 @@ def load_patterns(position, area, group, orders):
     """
     if min(orders) < 0:
         raise ConfigError("load patterns", "orders of at least 0", f"{tuple(orders)}")
-    faces = [_on_face(position[group == g], area[group == g], orders) for g in np.unique(group)]
+    faces = (_on_face(position[group == g], area[group == g], orders) for g in np.unique(group))
     rows = np.argsort(np.argsort(group, kind="stable"), kind="stable")
-    return scipy.sparse.csr_matrix(scipy.sparse.block_diag(faces))[rows]
+    return scipy.sparse.block_diag([scipy.sparse.csr_matrix(face) for face in faces], format="csr")[rows]
 
 
 def _on_face(position, area, orders):

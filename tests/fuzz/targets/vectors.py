@@ -193,7 +193,9 @@ def _neutral_odd(rng):
         for _ in range(int(rng.integers(1, 4))):
             nodes = []
             h5.visititems(lambda _, node, nodes=nodes: nodes.append(node))
-            node = draw(rng, nodes or [h5])
+            if not nodes:
+                break       # all are lost
+            node = draw(rng, nodes)
             draw(rng, (_attribute, _attribute, _lost, _renamed, _replaced))(rng, h5, node)
 
     return Trial("a.h5", _hdf5(fill), "odd members")
