@@ -89,9 +89,9 @@ def _below(stiffness, mass, solver, below):
     if _is_dense(size, count):
         square, shape = _dense(stiffness, mass, count)
     else:
-        factor = _counted(stiffness, mass, solver, _AMID * limit)
-        beneath = factor.negative
-        shifted, shape = _lanczos(factor, mass, count - beneath, beneath, 1 / (limit - _AMID * limit))
+        shift = _AMID * limit
+        factor = _counted(stiffness, mass, solver, shift)
+        shifted, shape = _lanczos(factor, mass, count - factor.negative, factor.negative, 1 / (limit - shift))
         _refuse_inaccurate(factor, mass, shifted, shape)
         square = _quotients(stiffness, shape)       # far from the shift better than by its eigenvalue
     if not (square < limit).all():
@@ -132,8 +132,9 @@ def _dense(stiffness, mass, count):
 
 
 def _lanczos(factor, mass, above, beneath=0, edge=None):
-    """Eigenvalues of (A, M) next to zero, ``above`` of them above it and ``beneath`` below, where there are no others,
-    and their vectors, in no order. Of ``edge``, the smallest inverse of those above, no more may be found.
+    """Eigenvalues of (A, M) next to zero, ``above`` of them above it and ``beneath`` below, and their vectors, in no
+    order. ``beneath`` not zero: all that are below zero. ``edge``: refused if there are others whose inverses lie below
+    zero or above it.
 
     Block Lanczos on A^-1 M with full reorthogonalisation in the mass norm (Grimes, Lewis and
     Simon 1994, without restart): whole blocks keep double modes together and solve several
@@ -212,10 +213,11 @@ def _refuse_inaccurate(factor, mass, shifted, shape):
     """Check (K + s M)^-1 M x = x / (lambda + s) in the mass norm: of a few sums of all modes with seeded signs,
     in which no error of a mode is lost, and of every mode where these miss it."""
     count = shape.shape[1]
-    signs = np.where(np.random.default_rng(0).random((count, _BLOCK)) < 0.5, -1.0, 1.0)
-    mixed = shape @ signs, shape @ (signs * shifted[:, None])
-    if count > _BLOCK and _error(factor.solve(mass @ mixed[1]) - mixed[0], mass).max() < _TOLERANCE:
-        return
+    if count > _BLOCK:
+        signs = np.where(np.random.default_rng(0).random((count, _BLOCK)) < 0.5, -1.0, 1.0)
+        mixed, pulled = shape @ signs, shape @ (signs * shifted[:, None])
+        if _error(factor.solve(mass @ pulled) - mixed, mass).max() < _TOLERANCE:
+            return
     error = _error(factor.solve(mass @ shape) * shifted - shape, mass)
     if not error.max() < _TOLERANCE:
         raise ConvergenceError("lowest_modes", f"an error below {_TOLERANCE:g}",

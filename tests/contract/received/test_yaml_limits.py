@@ -15,7 +15,7 @@ MERGES = "a: &a {x: 1}\n" + "".join(f"{n}: &{n}\n  <<: [{', '.join([f'*{p}'] * 1
 
 @pytest.mark.parametrize("text, told", [
     (LISTS, "yaml:6: expected at most 200000 values"), (MERGES, "expected at most 200000 values"),
-    ("a: &a [*a]\n", "an alias of what is complete"), ("[" * 300_000, "at most 50 lists|maximum nesting depth"),
+    ("a: &a [*a]\n", "an alias of what is complete"), ("[" * 300_000, "at most 50 lists"),
     ("- " * 200_000 + "x", "at most 50 lists"), ("a: " + "x" * 2_000_000, "more than 2000000 bytes"),
     ("a: " + "9" * 5000, "yaml:1: expected a number of at most 300 digits, found 5000"), ("a: *b\n", "undefined alias"),
     ("? [a]\n: 1\n", "unhashable")])
