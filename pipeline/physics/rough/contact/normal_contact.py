@@ -26,16 +26,20 @@ class NormalContact:
 
 def apply(compliance, traction):
     """Surface displacement (ny, nx) in m by a traction map; ``compliance`` is one array of a SurfaceCompliance."""
-    return scipy.fft.irfft2(compliance * scipy.fft.rfft2(traction), s=traction.shape)
+    waves = scipy.fft.rfft2(traction)
+    waves *= compliance
+    # irfft2 to the last bit, and faster
+    return scipy.fft.irfft(scipy.fft.ifft(waves, axis=0, overwrite_x=True), n=traction.shape[1])
 
 
 def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1e-6, max_iterations=2000):
-    """Contact pressure under ``mean_pressure`` (Pa) by the conjugate gradients of Polonsky & Keer (1999).
+    """Contact pressure under ``mean_pressure`` (Pa) by projected conjugate gradients.
 
-    ``gap`` (ny, nx) in m: distance of the undeformed surfaces, any reference; ``compliance`` (ny, nx // 2 + 1) in m/Pa:
-    normal compliance of both solids, or a CompositeCompliance; ``start``: a pressure map to start from. The remaining
-    gap of contact nodes and the remaining overlap of others are below ``tolerance`` times the rms of ``gap``; otherwise
-    ConvergenceError.
+    Those of Polonsky & Keer (1999), with the conjugate factor of Polak & Ribiere (1969): where nodes join the contact
+    it needs no restart. ``gap`` (ny, nx) in m: distance of the undeformed surfaces, any reference; ``compliance`` (ny,
+    nx // 2 + 1) in m/Pa: normal compliance of both solids, or a CompositeCompliance; ``start``: a pressure map to start
+    from. The remaining gap of contact nodes and the remaining overlap of others are below ``tolerance`` times the rms
+    of ``gap``; otherwise ConvergenceError.
     """
     if not isinstance(compliance, np.ndarray):
         return compliance.settled(lambda gap, alike, start: solve_normal_contact(
@@ -45,28 +49,48 @@ def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1
         raise ConfigError("normal contact", "a positive pressure and a gap that varies",
                           f"{mean_pressure:g} Pa on a gap of {scale:g} m rms")
     pressure = np.full(gap.shape, float(mean_pressure)) if start is None else np.maximum(start, 0.0)
-    pressure = pressure * (mean_pressure / pressure.mean())
-    direction, conjugate, previous = np.zeros_like(gap), 0.0, 1.0
+    pressure *= mean_pressure / pressure.mean()
+    bearing, path, displaced = np.flatnonzero(pressure), _Path(gap.shape), None
     for iteration in range(max_iterations):
-        distance = gap + apply(compliance, pressure)
-        bearing = (pressure > 0.0).astype(float)
-        count = bearing.sum()
-        approach = np.vdot(distance, bearing) / count
+        displaced = apply(compliance, pressure) if displaced is None else displaced
+        distance = (gap + displaced).ravel()
+        approach = distance[bearing].mean()
         distance -= approach
-        residual = distance * bearing
-        error = max(residual.max(), -distance.min()) / scale
+        overlap = -distance.min()
+        error = max(distance[bearing].max(), overlap) / scale
         if error < tolerance:
             return NormalContact(pressure, approach, iteration)
-        square = np.vdot(residual, residual)
-        direction = residual + conjugate * square / previous * (direction * bearing)
-        image = apply(compliance, direction)
-        image -= np.vdot(image, bearing) / count
-        curvature = np.vdot(image, direction)       # of a single touching node none: its own stiffness is the step
-        step = np.vdot(residual, direction) / curvature if curvature > 0.0 else 1.0 / _self_compliance(compliance, gap)
-        pressure, conjugate = _advance(pressure, step, direction, distance, mean_pressure)
-        previous = square if square > 0.0 else 1.0
+        free = _free(distance, bearing) if overlap > 0.0 else bearing
+        slope = path.turn(free, distance[free])
+        image = apply(compliance, path.direction)
+        step = slope / np.vdot(image, path.direction)
+        bearing, factor = _advance(pressure, step, path.direction, free, distance[free], mean_pressure)
+        displaced = None if factor is None else factor * (displaced - step * image)
     raise ConvergenceError("normal contact", f"a gap error of {tolerance:g} rms within {max_iterations} iterations",
                            f"{error:.2g}", "raise max_iterations or tolerance")
+
+
+class _Path:
+    """Conjugate ``direction`` (ny, nx) in m, of no mean, nonzero at the free nodes of the last turn alone."""
+
+    def __init__(self, shape):
+        self.direction, self._residual = np.zeros(shape), np.zeros(shape)
+        self._free, self._square = np.empty(0, int), 1.0
+
+    def turn(self, free, distance):
+        """Turn into the direction of the ``free`` nodes, at a ``distance`` (n,) in m; slope (m^2) along it."""
+        direction, residual = self.direction.ravel(), self._residual.ravel()
+        new = distance - distance.mean()
+        square = new @ new
+        conjugate = max(0.0, square - new @ residual[free]) / self._square
+        along = new + conjugate * direction[free]
+        along -= along.mean()
+        if new @ along <= 0.0:      # uphill: steepest descent
+            along = new
+        direction[self._free] = residual[self._free] = 0.0
+        direction[free], residual[free] = along, new
+        self._free, self._square = free, square if square > 0.0 else 1.0
+        return new @ along
 
 
 def full_contact_pressure(gap, compliance):
@@ -84,23 +108,25 @@ def full_contact_pressure(gap, compliance):
     return scipy.fft.irfft2(flattening / waves, s=gap.shape).max()
 
 
-def _self_compliance(compliance, gap):
-    """Displacement of a node by a traction on itself alone, over the mean displacement taken off, in m/Pa."""
-    unit = np.zeros(gap.shape)
-    unit[0, 0] = 1.0
-    image = apply(compliance, unit)
-    return image[0, 0] - image.mean()
+def _free(distance, bearing):
+    """Nodes that bear or overlap, by their places in the flat ``distance`` (n,) from the approach, in m."""
+    free = distance < 0.0
+    free[bearing] = True
+    return np.flatnonzero(free)
 
 
-def _advance(pressure, step, direction, distance, mean_pressure):
-    """One projected step; overlapping open nodes join the contact, which restarts the conjugate directions."""
-    pressure = np.maximum(pressure - step * direction, 0.0)
-    overlap = (pressure == 0.0) & (distance < 0.0)
-    joined = overlap.any()
-    if joined:
-        pressure[overlap] -= step * distance[overlap]
-    pressure *= mean_pressure / pressure.mean()
-    return pressure, 0.0 if joined else 1.0
+def _advance(pressure, step, direction, free, distance, mean_pressure):
+    """One projected step of the ``free`` nodes, which are at a ``distance`` (n,) in m; changes ``pressure``.
+
+    (Nodes that bear then, factor on the straight step that keeps the mean; None where nodes were projected.)
+    """
+    straight = pressure.ravel()[free] - step * direction.ravel()[free]
+    new = np.maximum(straight, 0.0)
+    joins = (new == 0.0) & (distance < 0.0)
+    new[joins] -= step * distance[joins]
+    factor = mean_pressure * pressure.size / new.sum()
+    pressure.ravel()[free] = factor * new
+    return free[new > 0.0], factor if np.array_equal(new, straight) else None
 
 
 def contact_area(contact):
