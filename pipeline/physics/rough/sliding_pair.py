@@ -1,7 +1,7 @@
 """Friction of a rough pair over its sliding distance: normal contact, shear limit, wear and flash heat together.
 
 One call of ``slide`` is one nominal pressure and one relative position of the two patches. Speed acts through the shear
-limit alone, so the contact is solved once for all speeds and the shear once for each.
+limit alone, and full slip is in proportion to that: contact and shear are solved once for all speeds.
 """
 
 from dataclasses import dataclass, replace
@@ -227,8 +227,8 @@ def spots(pressure, pair, shearing, speeds):
     """(real area share, corrected for its perimeter; counted share; heating of the spots (speeds,) in K/Pa)."""
     touching = pressure > 0.0
     counted, area = contact_area(touching)
-    heating = [spot_heating(touching, pair.spacing, shearing.pad, shearing.disc, speed) for speed in speeds]
-    return area, counted, area / counted * np.array(heating)
+    heating = spot_heating(touching, pair.spacing, shearing.pad, shearing.disc, speeds)
+    return area, counted, area / counted * heating
 
 
 def spot_limit(shearing, mean_pressure, area, speed, heating):
@@ -247,7 +247,7 @@ def _measure(worn, rubbing, mean_pressure, speeds):
         worn.gap(position) + contacts[position].flattened, _normal(rubbing), contacts[position],
         **vars(rubbing.solving)) for position in {0, stroke // 2, stroke}])
     sheared = [_sheared(c.pressure, speeds, rubbing) for c in contacts]
-    figures = {name: np.mean([[f[name] for f in row] for row in sheared], axis=0) for name in sheared[0][0]}
+    figures = {name: np.mean([of[name] for of in sheared], axis=0) for name in sheared[0]}
     same = {"approach": np.mean([c.approach for c in contacts]), "normal_stiffness": stiffness,
             "largest_wear": max(worn.pad_wear.max(), worn.disc_wear.max()),
             "yielding_area": np.mean([np.mean(c.pressure >= rubbing.pair.hardness) for c in contacts])}
@@ -256,23 +256,21 @@ def _measure(worn, rubbing, mean_pressure, speeds):
 
 
 def _sheared(pressure, speeds, rubbing):
-    """Friction, real area and heat of one contact at every speed.
+    """Friction, real area and heat of one contact, arrays (speeds,).
 
     The bases are displaced by ``FAR`` times what full slip takes, so that all slip is along x; that no node sticks is
-    the solution's finding.
+    the solution's finding. Shear and displacement go in proportion to the limit, and are those of 1 Pa times that of
+    each speed.
     """
     shearing, compliance = rubbing.shearing, rubbing.pair.compliance
     area, _, heating = spots(pressure, rubbing.pair, shearing, speeds)
-    figures = []
-    for speed, heat in zip(speeds, heating, strict=True):
-        limit = spot_limit(shearing, pressure.mean(), area, speed, heat)
-        nodal = nodal_limit(pressure, rubbing, limit)
-        slip = full_slip_displacement(nodal, compliance)
-        imposed = FAR * (slip + compliance.along[0, 0] * nodal.mean())
-        shear = solve_shear_limit(nodal, compliance, imposed, **vars(rubbing.solving))
-        figures.append({"friction": shear.traction[0].sum() / pressure.sum(), "real_area": area,
-                        "flash_temperature": heat * limit, "full_slip_distance": slip, "limit_at_speed": limit})
-    return figures
+    limit = spot_limit(shearing, pressure.mean(), area, np.asarray(speeds), heating)
+    nodal = nodal_limit(pressure, rubbing, 1.0)
+    slip = full_slip_displacement(nodal, compliance)
+    imposed = FAR * (slip + compliance.along[0, 0] * nodal.mean())
+    shear = solve_shear_limit(nodal, compliance, imposed, **vars(rubbing.solving))
+    return {"friction": limit * (shear.traction[0].sum() / pressure.sum()), "real_area": np.full_like(limit, area),
+            "flash_temperature": heating * limit, "full_slip_distance": limit * slip, "limit_at_speed": limit}
 
 
 def nodal_limit(pressure, rubbing, limit):

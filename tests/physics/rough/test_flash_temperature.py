@@ -37,11 +37,22 @@ def test_heat_trails_behind_the_moving_spot():
 def test_the_better_conductor_takes_the_heat():
     mask = np.zeros((NODES, NODES), dtype=bool)
     mask[30:34, 30:34] = True
-    both = spot_heating(mask, SPACING, LINING, IRON, 1.3)
+    both, = spot_heating(mask, SPACING, LINING, IRON, [1.3])
     only_disc = surface_rise(np.where(mask, 1.3, 0.0), SPACING, IRON, 1.3)[mask].mean()
     assert 0.8 * only_disc < both < only_disc
 
 
 def test_no_speed_no_heat():
-    mask = np.eye(NODES, dtype=bool)
-    assert spot_heating(mask, SPACING, LINING, IRON, 1e-9) < 1e-6 * spot_heating(mask, SPACING, LINING, IRON, 1.0)
+    slow, fast = spot_heating(np.eye(NODES, dtype=bool), SPACING, LINING, IRON, [1e-9, 1.0])
+    assert slow < 1e-6 * fast
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("shape", [(64, 64), (48, 63)])
+def test_heating_of_spots_is_the_mean_of_the_map_of_their_rise(shape):
+    mask, speeds = np.random.default_rng(3).random(shape) < 0.1, [0.4, 1.3, 20.0]
+    rest, passed = ([surface_rise(np.where(mask, speed, 0.0), SPACING, solid, over)[mask].mean()
+                     for speed, over in zip(speeds, way, strict=True)]
+                    for solid, way in ((LINING, [0.0] * 3), (IRON, speeds)))
+    expected = np.multiply(rest, passed) / np.add(rest, passed)
+    np.testing.assert_allclose(spot_heating(mask, SPACING, LINING, IRON, speeds), expected, rtol=1e-12)

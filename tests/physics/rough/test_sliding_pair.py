@@ -5,10 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.physics.rough.contact.shear_limit import full_slip_displacement, solve_shear_limit
 from pipeline.physics.rough.flash_temperature import ThermalSolid
 from pipeline.physics.rough.generator import self_affine
 from pipeline.physics.rough.layered_solid import graded_depth, layered_compliance
-from pipeline.physics.rough.sliding_pair import RoughPair, Rubbing, Shearing, Solving, Wearing, slide
+from pipeline.physics.rough.sliding_pair import (
+    FAR,
+    RoughPair,
+    Rubbing,
+    Shearing,
+    Solving,
+    Wearing,
+    nodal_limit,
+    slide,
+)
 
 NODES, LENGTH = 32, 1e-3
 SPACING = (LENGTH / NODES,) * 2
@@ -70,3 +80,19 @@ def test_maps_belong_to_the_records(record):
     lost = record.maps.pad_height[0] - record.maps.pad_height[-1]
     np.testing.assert_allclose(lost, record.maps.pad_wear[-1], atol=1e-15)
     assert record.maps.pad_wear[-1].mean() == pytest.approx(4e-12 * 1e6 * 4e-3, rel=1e-12)
+
+
+@pytest.mark.exact
+def test_shear_of_every_speed_is_that_of_a_speed_alone():
+    """The limit of a node scales with that of the spots, also where it rises with its pressure."""
+    shearing = replace(SHEARING, pressure_coefficient=0.2)
+    rubbed = rubbing(wearing=replace(WEARING, cycles=0, stroke=0), shearing=shearing)
+    found = slide(rubbed, 1e6, SPEEDS, [0])
+    pressure, compliance = found.maps.contact_pressure[0], rubbed.pair.compliance
+    for speed, limit in enumerate(found.limit_at_speed[:, 0]):
+        nodal = nodal_limit(pressure, rubbed, limit)
+        slip = full_slip_displacement(nodal, compliance)
+        shear = solve_shear_limit(nodal, compliance, FAR * (slip + compliance.along[0, 0] * nodal.mean()),
+                                  **vars(SOLVING)).traction[0].mean()
+        assert found.friction[speed, 0] == pytest.approx(shear / 1e6, rel=1e-12)
+        assert found.full_slip_distance[speed, 0] == pytest.approx(slip, rel=1e-12)
