@@ -216,7 +216,9 @@ def passed(rubbing, worn, mean_pressure):
     """YieldingContacts of a WornPair at every position of one pass of the slider."""
     contacts, pressure, normal = [], None, _normal(rubbing)
     for position in range(rubbing.wearing.stroke + 1):
-        contact = solve_yielding_contact(worn.gap(position), normal, mean_pressure, pressure, **vars(rubbing.solving),
+        start = worn.expected(position)
+        contact = solve_yielding_contact(worn.gap(position), normal, mean_pressure,
+                                         pressure if start is None else start, **vars(rubbing.solving),
                                          hardness=rubbing.pair.hardness)
         contacts.append(contact)
         pressure = contact.pressure

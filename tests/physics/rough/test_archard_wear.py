@@ -1,5 +1,7 @@
 """Archard's volume is exact; the slider returns."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -72,3 +74,19 @@ def test_what_the_disc_yields_moves_with_it():
     gap = -PAD - np.roll(first.disc_height, 1, axis=1)
     assert mark.any() and gap[mark].mean() < gap[~mark].mean() - gap.std()
     assert new.disc_height is DISC
+
+
+def test_expected_pressure_is_nearer_than_the_last_one():
+    pair, later = states(cycles=41)[-2:]
+    position = 40 % 4
+    found, last = later.met[position][1], pair.met[position][1]
+    assert np.linalg.norm(pair.expected(position) - found) < 0.5 * np.linalg.norm(last - found)
+    assert later.met[position][0] == 40 and states(cycles=1)[0].expected(0) is None
+
+
+@pytest.mark.exact
+def test_expected_pressure_goes_on_as_it_changed():
+    pair = states(cycles=0)[0]
+    for position, cycle, pressure in ((0, 0, 4.0), (1, 1, 5.0), (0, 2, 7.0), (1, 3, 5.0)):
+        pair = replace(pair, met=pair.meeting(position, cycle, np.full((1, 1), pressure)))
+    assert (pair.expected(0), pair.expected(1)) == (10.0, 5.0)

@@ -17,7 +17,9 @@ from pipeline.physics.rough.sliding_pair import (
     Solving,
     Wearing,
     nodal_limit,
+    passed,
     slide,
+    states,
 )
 
 NODES, LENGTH = 32, 1e-3
@@ -96,3 +98,13 @@ def test_shear_of_every_speed_is_that_of_a_speed_alone():
                                   **vars(SOLVING)).traction[0].mean()
         assert found.friction[speed, 0] == pytest.approx(shear / 1e6, rel=1e-12)
         assert found.full_slip_distance[speed, 0] == pytest.approx(slip, rel=1e-12)
+
+
+def test_pressures_that_were_met_shorten_a_pass_and_do_not_change_it():
+    rubbed = rubbing(wearing=replace(WEARING, cycles=30, distance=1e-4))
+    *_, worn = states(rubbed, 1e6)
+    warm, cold = passed(rubbed, worn, 1e6), passed(rubbed, replace(worn, met={}), 1e6)
+    assert len(warm) == len(cold) == WEARING.stroke + 1
+    assert sum(c.iterations for c in warm) < 0.7 * sum(c.iterations for c in cold)
+    for one, other in zip(warm, cold, strict=True):
+        np.testing.assert_allclose(one.pressure, other.pressure, atol=1e-4 * other.pressure.max())

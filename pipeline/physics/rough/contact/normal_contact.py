@@ -152,8 +152,9 @@ def interface_stiffness(gap, compliance, contact, tolerance, max_iterations, ste
     if flat <= mean:
         raise ConfigError("normal contact", f"a load that leaves nodes open, below {flat:.3g} Pa", f"{mean:.3g} Pa",
                           "lower the pressure or the wear, or raise the modulus of the asperities")
-    low, high = (solve_normal_contact(gap, compliance, mean * factor, contact.pressure, tolerance, max_iterations)
-                 for factor in (1.0 - step, 1.0 + step))
+    low = solve_normal_contact(gap, compliance, mean * (1.0 - step), contact.pressure, tolerance, max_iterations)
+    high = solve_normal_contact(gap, compliance, mean * (1.0 + step), 2.0 * contact.pressure - low.pressure, tolerance,
+                                max_iterations)
     return 1.0 / ((high.approach - low.approach) / (2.0 * step * mean) - uniform(compliance))
 
 

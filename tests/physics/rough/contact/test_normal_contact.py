@@ -84,6 +84,15 @@ def test_a_warm_start_changes_the_path_not_the_result(rough):
     np.testing.assert_allclose(warm.pressure, cold.pressure, atol=1e-6 * cold.pressure.max())
 
 
+def test_any_start_leads_to_the_same_contact(rough):
+    compliance = half_space_compliance(rough.shape, (1 / 64, 1 / 64), YOUNG, POISSON).normal
+    cold = solve_normal_contact(-rough, compliance, 0.02, tolerance=1e-9)
+    for start in (np.random.default_rng(5).normal(size=rough.shape), np.eye(64), np.maximum(-rough, 0.0)):
+        found = solve_normal_contact(-rough, compliance, 0.02, start, 1e-9)
+        np.testing.assert_allclose(found.pressure, cold.pressure, atol=1e-6 * cold.pressure.max())
+        assert found.approach == pytest.approx(cold.approach, rel=1e-8)
+
+
 @pytest.mark.exact
 def test_corrected_area_of_a_disc():
     position = np.arange(100) - 50.3
