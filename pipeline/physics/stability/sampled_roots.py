@@ -1,12 +1,8 @@
 """Unstable roots of many draws of a Family, on bases that serve all of them.
 
 Real modes of the nominal brake below a limit, with corrections for everything that a draw changes (``friction_basis``),
-are one basis V (n, m) for all draws of one load. On it a draw at an operating point is solved in three steps:
-
-1. its sliding state (``sampled_sliding``), and the real modes phi of its m coordinates without friction and losses;
-2. with the modes above the limit condensed, each answer at the frequency w_j of the mode that drives it, those below it
-   are a small quadratic eigenvalue problem;
-3. roots that grow, or nearly do, are solved for in all m coordinates without these simplifications.
+are one basis V (n, m) for all draws of one load. On it a draw at an operating point is its sliding state
+(``sampled_sliding``), and the roots about it that grow, or nearly do (``growing_roots``).
 
 For some draws of the same scatter, the training, what V leaves out of the growing modes is computed from their residual
 in the whole model, and joins V.
@@ -17,32 +13,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import by_frequency, polished
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.modal.growing_roots import growing_roots
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
 from pipeline.physics.stability.friction_basis import friction_basis
 from pipeline.physics.stability.sampled_sliding import GivenSliding, SlidingBasis, sliding_basis
 from pipeline.physics.stability.scatter import NOMINAL
 
-#: growth rates above this negative share of the frequency are solved for, as is the largest
-_NEARLY = 4e-4
-#: modes up to this multiple of the limit are not condensed
-_WIDER = 1.3
-#: matrices are factorised beside a root, where they are regular
-_BESIDE = 1 + 1e-7
-#: inverse iterations for the shape of a mode
-_INVERSE = 3
-#: share of the highest squared frequency below which a motion counts as rigid
-_RIGID = 1e-14
-#: bands of frequency in which the modes above the limit are condensed
-_BANDS = 6
-#: relative error of a root on the basis
-_ROOT = 1e-8
 #: what joins the basis for the training: amplitudes above this share of the mode
 _JOINING = 1e-4
-#: roots closer than this share of their frequency are one
-_SAME = 1e-6
 
 
 @dataclass(frozen=True)
@@ -80,21 +60,13 @@ class Sampled:
 
     def modes(self, factors, speed):
         """(``roots``, their shapes (m, r) on the basis)."""
-        contact = self.sliding.slide(factors, speed)
-        *matrices, real = self._in_real_modes(factors, speed, contact)
-        limit = 2 * np.pi * self.below
-        try:
-            root, shape = _solved(*matrices, limit, _WIDER * limit)
-        except ConvergenceError:        # contacts damped so much that modes above the limit have no simple answer
-            root, shape = _solved(*matrices, limit, np.inf)
-        return root, real @ shape
+        return growing_roots(*self._matrices(factors, speed, self.sliding.slide(factors, speed)),
+                             2 * np.pi * self.below)
 
-    def _in_real_modes(self, factors, speed, contact):
-        """(C, K, w^2 (m,), real modes (m, m)) of a draw, C and K in its real modes, K complex by its losses."""
+    def _matrices(self, factors, speed, contact):
+        """(C, K without friction and losses, what these add to it) of a draw, each (m, m), the last complex."""
         body, imaginary = self._bodies(factors, speed)
         normal = self.small.contacts.normal
-        square, real = scipy.linalg.eigh(body + spread(normal, contact.stiffness, normal), driver="evd",
-                                         overwrite_a=True, check_finite=False)
         drawn, damping = self._friction(factors, speed, contact)
         joints = self.small.joints
         damping = damping + self.small.damping
@@ -103,8 +75,7 @@ class Sampled:
             damping = damping + spread(joints.rows, viscous, joints.rows)
         if self.family.gyroscopic:
             damping = damping + speed * self.small.gyroscopic
-        damping, drawn, imaginary = (real.T @ (part @ real) for part in (damping, drawn, imaginary))
-        return damping, drawn + np.diag(square) + 1j * imaginary, square, real
+        return damping, body + spread(normal, contact.stiffness, normal), drawn + 1j * imaginary
 
     def _bodies(self, factors, speed):
         """(real, imaginary) stiffness (m, m) N/m of bodies and joints of a draw."""
@@ -235,68 +206,3 @@ def _by_body(family, matrix, basis):
     body = family.model.coordinate_body
     blocks = [np.flatnonzero(body == b) for b in range(len(family.model.body_name))]
     return np.array([basis[b].T @ matrix[np.ix_(b, b)] @ basis[b] for b in blocks])
-
-
-def _solved(damping, stiffness, square, limit, condensed_above):
-    """(roots (r,), shapes (m, r)) below the angular frequency ``limit`` by falling growth rate: steps 2 and 3."""
-    condensed = _condensed(damping, stiffness, square, condensed_above)
-    mass, root, shape = np.eye(len(square)), [], []
-    for near in _BESIDE * _candidates(_quadratic_roots(*condensed[:3]), limit):
-        s, x = polished(mass, damping, stiffness, near, _shape(*condensed, near), accuracy=_ROOT)
-        if abs(s) < limit and all(abs(s - other) > _SAME * abs(s) for other in root):
-            root.append(s)
-            shape.append(x)
-    order = np.argsort(-np.real(root), kind="stable")
-    return np.array(root, complex)[order], np.reshape(shape, (-1, len(square))).T[:, order]
-
-
-def _condensed(damping, stiffness, square, limit):
-    """(M, C, K (k, k), answers X, Y (m - k, k)) of the modes below the angular frequency ``limit``, all real.
-
-    Those above move by X q + Y q', which is their answer to modes q up to terms of the second order in damping, each
-    inertia at the frequency of the mode that drives them. Losses are those of the viscous damping equivalent to them.
-    """
-    k, pace = np.searchsorted(square, limit**2), np.sqrt(np.sqrt(np.maximum(square, _RIGID * square[-1])))
-    damping, stiffness = damping + stiffness.imag / np.outer(pace, pace), stiffness.real
-    answers = np.empty((2, len(square) - k, k))
-    for band in np.array_split(np.arange(k), min(k, _BANDS)):
-        high = stiffness[k:, k:].copy()
-        high[np.diag_indices(len(high))] -= square[band].mean()
-        factor = scipy.linalg.lu_factor(high, overwrite_a=True, check_finite=False)
-        driven = stiffness[k:, band]
-        for order in range(2):
-            answers[order][:, band] = -scipy.linalg.lu_solve(factor, driven, check_finite=False)
-            driven = damping[k:, band] + damping[k:, k:] @ answers[order][:, band]
-    drag, spring = damping[:k, k:], stiffness[:k, k:]
-    by_place, by_speed = answers
-    return (np.eye(k) + drag @ by_speed, damping[:k, :k] + drag @ by_place + spring @ by_speed,
-            stiffness[:k, :k] + spring @ by_place, answers)
-
-
-def _shape(mass, damping, stiffness, answers, root):
-    """(m,) of the mode of a root of the condensed problem, by inverse iteration."""
-    operator = root**2 * mass + root * damping + stiffness
-    factor, vector = scipy.linalg.lu_factor(operator, overwrite_a=True, check_finite=False), np.ones(len(mass))
-    for _ in range(_INVERSE):
-        vector = scipy.linalg.lu_solve(factor, vector, check_finite=False)
-        vector = vector / np.linalg.norm(vector)
-    return np.concatenate((vector, (answers[0] + root * answers[1]) @ vector))
-
-
-def _quadratic_roots(mass, damping, stiffness):
-    """All roots (2 k,) 1/s of s^2 M + s C + K, all (k, k) real, in single precision: they are where others start."""
-    k, turned = len(mass), np.linalg.solve(mass, np.hstack((stiffness, damping)))
-    pace = np.sqrt(np.linalg.norm(turned[:, :k]))
-    companion = np.zeros((2 * k, 2 * k), np.float32)
-    companion[:k, k:][np.diag_indices(k)] = 1.0
-    companion[k:, :k], companion[k:, k:] = -turned[:, :k] / pace**2, -turned[:, k:] / pace
-    return pace * scipy.linalg.eigvals(companion, overwrite_a=True, check_finite=False).astype(complex)
-
-
-def _candidates(root, limit):
-    """Those of the roots below ``limit`` that grow or nearly do, and that of the largest growth rate."""
-    root = root[(root.imag > abs(root.real)) & (abs(root) < limit)]
-    root = root[by_frequency(root)]
-    near = root.real > -_NEARLY * abs(root)
-    near |= root.real == root.real.max(initial=-np.inf)
-    return root[near]

@@ -1,0 +1,59 @@
+"""Growing roots by way of real modes, against all roots of the first-order system."""
+
+import numpy as np
+import pytest
+import scipy
+
+from pipeline.physics.modal.growing_roots import growing_roots
+
+#: all rad/s: frequencies of the modes lie between these, roots are sought below the limit
+LOWEST, HIGHEST, LIMIT = 1e3, 2e5, 5e4
+#: growth, as a share of the frequency, that no simplification hides
+SURE = 4e-4
+
+
+def system(seed, damped, size=140):
+    """(C, K_0, dK): modes up to HIGHEST under one-sided friction and losses; ``damped``: share of the critical damping
+    by which twenty contacts damp the modes, those above the limit the more."""
+    rng = np.random.default_rng(seed)
+    frequency = np.sort(rng.uniform(LOWEST, HIGHEST, size))
+    turn = np.linalg.qr(rng.standard_normal((size, size)))[0]
+    contacts = rng.standard_normal((20, size)) * np.sqrt(frequency / size)
+    along = rng.standard_normal((20, size)) * np.sqrt(frequency / size)
+    friction = 0.15 * (along.T * frequency.mean()) @ contacts
+    damping = damped * contacts.T @ contacts + np.diag(1e-3 * frequency)
+    lossy = np.diag(2e-3 * frequency**2)
+    return tuple(turn @ part @ turn.T for part in (damping, np.diag(frequency**2), friction + 1j * lossy))
+
+
+def every_root(damping, stiffness, change):
+    """All roots below the limit in the upper half plane, by falling growth rate."""
+    size, pace = len(damping), np.sqrt(np.linalg.norm(stiffness))
+    companion = np.block([[np.zeros((size, size)), pace * np.eye(size)], [-(stiffness + change) / pace, -damping]])
+    roots = scipy.linalg.eigvals(companion)
+    roots = roots[(roots.imag > abs(roots.real)) & (abs(roots) < LIMIT)]
+    return roots[np.argsort(-roots.real)]
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize(("damped", "grow"), [(0.0, 35), (0.02, 30), (0.3, 4), (1.0, 1)])
+def test_growing_roots_and_the_least_stable_one_are_those_of_all_roots(damped, grow):
+    grown = 0
+    for seed in range(12):
+        matrices = system(seed, damped)
+        exact, (roots, shapes) = every_root(*matrices), growing_roots(*matrices, LIMIT)
+        sought = exact[exact.real > SURE * abs(exact)] if (exact.real > 0).any() else exact[:1]
+        for root in sought:
+            assert abs(roots - root).min() < 1e-7 * abs(root)
+        assert all(abs(exact - root).min() < 1e-7 * abs(root) for root in roots)
+        assert (np.diff(roots.real) <= 0).all()
+        for root, shape in zip(roots, shapes.T, strict=True):
+            force = root * (root * shape + matrices[0] @ shape) + (matrices[1] + matrices[2]) @ shape
+            assert np.linalg.norm(force) < 1e-6 * abs(root) ** 2
+        grown += np.sum(exact.real > 0)
+    assert grown >= grow
+
+
+def test_no_mode_below_the_limit_is_no_root():
+    roots, shapes = growing_roots(np.zeros((2, 2)), np.diag([1e8, 2e8]), np.zeros((2, 2), complex), 1e3)
+    assert roots.shape == (0,) and shapes.shape == (2, 0)
