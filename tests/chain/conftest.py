@@ -16,9 +16,13 @@ QUICK = ROOT / "configs" / "disc_brake_quick.yaml"
 
 
 def brakechain(*args, code=0):
-    """Run the command line from the project's root; checks its exit code."""
-    done = subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True, cwd=ROOT,
-                          timeout=1800)
+    """Run the command line from the project's root; checks its exit code, and says how far it came in half an hour."""
+    try:
+        done = subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True,
+                              cwd=ROOT, timeout=1800)
+    except subprocess.TimeoutExpired as stopped:
+        told = b"".join(filter(None, (stopped.stdout, stopped.stderr))).decode(errors="replace")
+        raise AssertionError(f"{' '.join(map(str, args))}: stopped after {stopped.timeout:g} s\n{told}") from None
     assert done.returncode == code, done.stdout + done.stderr
     return done
 
