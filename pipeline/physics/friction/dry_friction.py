@@ -160,6 +160,17 @@ def kernel(friction, contacts):
     return FrictionKernel(*axes, np.concatenate(tables), contact, DESCRIPTIONS[described.pop()])
 
 
+def at_one_distance(kernel):
+    """The same FrictionKernel with tables at the distance where all contacts read them; itself where they differ."""
+    place, axis = kernel.contact[:, READ_AT], kernel.distance
+    if len(axis) == 1 or not len(place) or (place != place[0]).any():
+        return kernel
+    low = min(max(int(np.searchsorted(axis, place[0], side="right")) - 1, 0), len(axis) - 2)
+    weight = min(max((place[0] - axis[low]) / (axis[low + 1] - axis[low]), 0.0), 1.0)
+    table = kernel.table[..., low] * (1.0 - weight) + kernel.table[..., low + 1] * weight
+    return kernel._replace(distance=np.array([place[0]]), table=np.ascontiguousarray(table[..., None]))
+
+
 def common(laws):
     """(axes, tables) of FrictionLaws on the axes that hold the values of all."""
     if len(laws) == 1:

@@ -7,6 +7,10 @@ from scipy.integrate import solve_ivp
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.cattaneo_mindlin import tangential_load
 from pipeline.physics.friction.dry_friction import (
+    READ_AT,
+    Friction,
+    at_one_distance,
+    characteristic,
     coefficient,
     constant,
     elastic_stick,
@@ -16,6 +20,7 @@ from pipeline.physics.friction.dry_friction import (
     kernel,
     tabulated,
 )
+from pipeline.physics.friction.friction_table import FrictionLaw
 
 
 @pytest.mark.exact
@@ -29,6 +34,25 @@ def test_falling_characteristic():
 
 def test_one_coefficient_at_all_states():
     assert coefficient(kernel(constant(0.4), 1), 0, 3e6, -7.0, -1.0) == 0.4
+
+
+@pytest.mark.parametrize("distance", [-1.0, 0.0, 0.3, 1.0, 1.7, 2.0, 9.0])
+def test_tables_at_one_distance_hold_what_all_of_them_hold_there(distance):
+    """Within, at and beyond the ends of the axis."""
+    axes, rng = ([1e6, 2e6, 4e6], [0.0, 1.0], [0.0, 1.0, 2.0]), np.random.default_rng(3)
+    whole = kernel(Friction(FrictionLaw(*axes, rng.random((3, 2, 3))), distance=distance), 2)
+    short = at_one_distance(whole)
+    assert short.table.shape == (3, 2, 1)
+    for pressure, speed in ((0.5e6, 0.3), (1.2e6, 0.3), (3e6, 2.0)):
+        expected, seen = (characteristic.py_func(each, 1, pressure, speed, each.contact[1, READ_AT], speed)[:3]
+                          for each in (whole, short))
+        np.testing.assert_allclose(seen, expected, rtol=1e-14)
+
+
+def test_tables_stay_whole_where_contacts_read_them_at_different_distances():
+    whole = kernel(Friction(FrictionLaw([1e6], [0.0], [0.0, 1.0], [[[0.3, 0.4]]]), distance=0.5), 2)
+    whole.contact[1, READ_AT] = 0.7
+    assert at_one_distance(whole) is whole
 
 
 @pytest.mark.exact
