@@ -14,10 +14,11 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
-from pipeline.physics.friction.dry_friction import READ_AT, characteristic, kernel
+from pipeline.physics.friction.dry_friction import READ_AT, at_one_distance, characteristic, kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding_motion.exponential_step import (
     ADDED,
+    DEPTH,
     DONE,
     LOSS,
     STORED,
@@ -90,15 +91,15 @@ class SlidingMotion:
         if count < every:
             raise ConfigError("sliding motion: step", "a positive step, at most as long as the motion",
                               f"{step:g} s for {duration:g} s")
-        state, rest, previous = (each.copy() for each in (start if isinstance(start, tuple) else self._begin(start)))
+        state, past = (each.copy() for each in (start if isinstance(start, tuple) else self._begin(start)))
         rows = count // every
         record = Record(np.empty((rows, len(state))), np.empty((rows, 2)), np.zeros((rows, 4)))
         energy = self.energy if book else NO_BOOK
-        sweeps = self._advance((state, rest, previous), step, count, every, record, energy)
+        sweeps = self._advance((state, past), step, count, every, record, energy)
         half, energies = len(state) // 2, record.energy.T
         return Run(step * every * np.arange(1, rows + 1), record.state[:, :half] + 1j * record.state[:, half:],
                    *record.share.T, energies[WORK], energies[LOSS], energies[ADDED], energies[STORED], sweeps / count,
-                   (state, rest, previous))
+                   (state, past))
 
     def _advance(self, motion, step, count, every, record, energy):
         """Sweeps of all steps; a step that has no solution is taken in finer ones."""
@@ -132,11 +133,11 @@ class SlidingMotion:
         return {}
 
     def _begin(self, start):
-        """(state, contact forces beyond the linear, the same) at modal coordinates (m,)."""
+        """(state, contact forces beyond the linear ones, as if they had always been) at modal coordinates (m,)."""
         p = len(self.patches.load)
         state, rest = np.concatenate((start.real, start.imag)), np.zeros((3, p))
-        beyond_linear(self.patches, (self.motion @ state).reshape(4, -1), rest, np.zeros((p, 3, 4)))
-        return state, rest, rest
+        beyond_linear(self.patches, (self.motion @ state).reshape(4, -1), rest, np.zeros((3, 4, p)))
+        return state, np.array([rest] * DEPTH)
 
     def rate(self, start):
         """dz/dt (m,) at modal coordinates (m,): for other integrators and for tests."""
@@ -190,7 +191,7 @@ def _patch_kernel(model, closure, friction, law, patches, stick_speed):
     normal, dry = normal_kernel(law, contacts), kernel(friction, len(contacts.area))
     lowest, interval, force, closed = _normal_tables(normal, closure, patches)
     load, speed = patches.summed(contacts.preload), patches.mean @ model.sliding_speed
-    per_load = 1 / patches.summed(contacts.area)
+    dry, per_load = at_one_distance(dry), 1 / patches.summed(contacts.area)
     np.divide(patches.summed(contacts.preload * contacts.pressure), load**2, out=per_load, where=load > 0)
     first = patches.member[patches.first[:-1]]
     dry = dry._replace(contact=dry.contact[first])

@@ -38,7 +38,7 @@ class PatchKernel(NamedTuple):
     scale: float            # m, closure in which the law grows by e
 
 
-@njit
+@njit(inline="always")
 def normal_at(k, i, moved, rate):
     """(N, dN/dmoved, dN/drate) of patch i displaced by ``moved``, opening at ``rate``."""
     position = (moved - k.lowest) / k.interval
@@ -51,15 +51,15 @@ def normal_at(k, i, moved, rate):
     return force, -stiffness, -damping
 
 
-@njit
-def patch_friction(k, i, normal, along, aside):
+@njit(inline="always")
+def patch_friction(friction, i, normal, pressure_per_load, along, aside, stick_speed):
     """SlidingForce of patch i under ``normal`` N at slip velocities ``along`` and ``aside`` of the drive, m/s."""
-    pressure, slip = normal * k.pressure_per_load[i], np.hypot(along, aside)
-    mu, by_pressure, by_speed, _ = characteristic(k.friction, i, pressure, slip, k.friction.contact[i, READ_AT], along)
-    return sliding_friction(normal, pressure, slip, along, aside, mu, by_pressure, by_speed, k.stick_speed)
+    pressure, slip = normal * pressure_per_load, np.sqrt(along * along + aside * aside)
+    mu, by_pressure, by_speed, _ = characteristic(friction, i, pressure, slip, friction.contact[i, READ_AT], along)
+    return sliding_friction(normal, pressure, slip, along, aside, mu, by_pressure, by_speed, stick_speed)
 
 
-@njit
+@njit(inline="always")
 def linear_forces(k, i, y):
     """Deviations (N, T, L) of the forces of patch i in the linearised system; ``y`` (4, p): u, u', v, w."""
     a = k.linear
@@ -70,17 +70,17 @@ def linear_forces(k, i, y):
 @njit
 def beyond_linear(k, y, rest, slope):
     """Fill ``rest`` (3, p) with what the forces at ``y`` (4, p) hold beyond steady and linear ones, and ``slope``
-    (p, 3, 4) with its derivatives."""
-    a = k.linear
+    (3, 4, p) with its derivatives."""
+    a, friction, speed, per_load = k.linear, k.friction, k.speed, k.pressure_per_load      # one reference each
     for i in range(k.load.size):
         normal, rise, drag = normal_at(k, i, y[0, i], y[1, i])
-        force = patch_friction(k, i, normal, k.speed[i] - y[2, i], -y[3, i])
+        force = patch_friction(friction, i, normal, per_load[i], speed[i] - y[2, i], -y[3, i], k.stick_speed)
         linear = linear_forces(k, i, y)
         rest[0, i] = normal - k.load[i] - linear[0]
         rest[1, i] = force.x - k.drawn[i] - linear[1]
         rest[2, i] = force.y - linear[2]
-        slope[i, 0, 0], slope[i, 0, 1] = rise + a[0, i], drag + a[1, i]
-        slope[i, 1, 0], slope[i, 1, 1] = force.x_by_normal * rise + a[2, i], force.x_by_normal * drag + a[3, i]
-        slope[i, 1, 2], slope[i, 1, 3] = a[4, i] - force.xx, -force.xy
-        slope[i, 2, 0], slope[i, 2, 1] = force.y_by_normal * rise, force.y_by_normal * drag
-        slope[i, 2, 2], slope[i, 2, 3] = -force.xy, a[5, i] - force.yy
+        slope[0, 0, i], slope[0, 1, i] = rise + a[0, i], drag + a[1, i]
+        slope[1, 0, i], slope[1, 1, i] = force.x_by_normal * rise + a[2, i], force.x_by_normal * drag + a[3, i]
+        slope[1, 2, i], slope[1, 3, i] = a[4, i] - force.xx, -force.xy
+        slope[2, 0, i], slope[2, 1, i] = force.y_by_normal * rise, force.y_by_normal * drag
+        slope[2, 2, i], slope[2, 3, i] = -force.xy, a[5, i] - force.yy
