@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.numerics.dense_factor import DenseFactor, product
 
 #: first-order systems up to this size are solved whole
 _SMALL = 120
@@ -55,15 +56,15 @@ def _shifted(mass, damping, stiffness, s0, count, beside):
     if beside is not None and len(beside.decay):
         states, answer = len(beside.decay), beside.push / (s0 + beside.decay)
         operator = operator - answer @ (beside.by_place + s0 * beside.by_speed)
-    factor = scipy.linalg.lu_factor(operator, check_finite=False)
+    factor = DenseFactor(operator)
 
     def solve(right):
         """(x, v, z) with (A - s0) (x, v, z) = right: v = a + s0 x, and T(s0) x = -M b - (s0 M + C) a + settling."""
         a, b, c = right[:n], right[n:2 * n], right[2 * n:]
-        load = -(mass @ (b + s0 * a) + damping @ a)
+        load = -(product(mass, b + s0 * a) + product(damping, a))
         if states:
             load = load + answer @ (beside.by_speed @ a - c)
-        x = scipy.linalg.lu_solve(factor, load, check_finite=False)
+        x = factor.solve(load)
         v = a + s0 * x
         if not states:
             return np.concatenate((x, v))

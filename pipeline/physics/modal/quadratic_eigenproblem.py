@@ -12,6 +12,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.dense_factor import DenseFactor, product
 
 #: factorisations at most, iterations with each, and the step, as a share of the root, that ends them
 _FACTORISATIONS, _POLISHINGS, _POLISHED = 4, 8, 1e-11
@@ -95,14 +96,11 @@ class DenseFactors:
 
     def renew(self, matrix):
         """Factorise ``matrix`` (n, n)."""
-        matrix = matrix.astype(self._kind, copy=False)
-        self._factor, self.ready = scipy.linalg.lu_factor(matrix, check_finite=False), True
+        self._factor, self.ready = DenseFactor(matrix, self._kind), True
 
     def solve(self, rhs, adjoint=False):
         """x (n,) of A x = rhs, or A^H x = rhs."""
-        rhs = rhs.astype(self._kind, copy=False)
-        x = scipy.linalg.lu_solve(self._factor, rhs, trans=2 if adjoint else 0, check_finite=False)
-        return x.astype(complex, copy=False)
+        return self._factor.solve(rhs, adjoint)
 
 
 def _operator(mass, damping, stiffness, s, beside, x=None):
@@ -114,8 +112,8 @@ def _operator(mass, damping, stiffness, s, beside, x=None):
     if x is None:
         whole = s**2 * mass + s * damping + stiffness
         return (whole - (push * answer) @ heard if settles else whole), None
-    inertia, drag = mass @ x, damping @ x
-    operator, slope = s**2 * inertia + s * drag + stiffness @ x, 2 * s * inertia + drag
+    inertia, drag = product(mass, x), product(damping, x)
+    operator, slope = s**2 * inertia + s * drag + product(stiffness, x), 2 * s * inertia + drag
     if settles:
         operator = operator - push @ (answer * (heard @ x))
         slope = slope - push @ (answer * (beside.by_speed @ x - answer * (heard @ x)))

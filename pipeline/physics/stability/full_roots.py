@@ -17,6 +17,7 @@ import scipy
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.modal.quadratic_eigenproblem import polished
+from pipeline.physics.numerics.dense_factor import product
 from pipeline.physics.numerics.sparse_solver import factorise
 
 #: inverse iterations from the contact motion of the reduced mode
@@ -110,11 +111,11 @@ def _from(guess, factors, tolerance):
     x, residual, norm = factors.solve(guess.rows.T @ guess.motion), np.inf, np.linalg.norm
     for _ in range(_STARTS):
         x = x / norm(x)
-        x = factors.solve(2 * root * (mass @ x) + damping @ x)
+        x = factors.solve(2 * root * product(mass, x) + product(damping, x))
     for _ in range(_ROUNDS):
         root, x = polished(mass, damping, stiffness, root, x, factors=factors, accuracy=tolerance)
         forces = stiffness @ x
-        residual = norm(root * (root * (mass @ x) + damping @ x) + forces) / norm(forces)
+        residual = norm(root * (root * product(mass, x) + product(damping, x)) + forces) / norm(forces)
         if residual <= tolerance:
             break
     moved = guess.rows @ x
