@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from pipeline.physics.sliding.model import congruent, runs
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import FrictionSystem, enriched, friction_path
 from pipeline.physics.stability.growth_balance import body_shares
@@ -41,7 +42,7 @@ def over_friction(linearised, model, sliding, basis, shapes, hysteretic):
     about = model.projected(whole.shape)
     system = FrictionSystem(*(_with_share(linearised, about, sliding, whole, share) for share in (0.0, 1.0)))
     if hysteretic is not None:
-        system = system.with_losses(*(whole.shape.T @ part @ whole.shape for part in hysteretic))
+        system = system.with_losses(*(congruent(part, whole.shape, runs(model.coordinate_body)) for part in hysteretic))
     return OverFriction(system, whole.shape, whole.shape.T @ model.mass)
 
 

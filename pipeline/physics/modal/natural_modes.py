@@ -23,6 +23,17 @@ _CHECK_EVERY = 2
 _LANCZOS_TOLERANCE = 1e-10
 
 
+def all_modes(stiffness, mass):
+    """(squares (n,) of the angular frequencies, modes (n, n) of unit modal mass) of dense symmetric matrices, lowest
+    first; ``mass`` positive definite, and not factorised where it is diagonal."""
+    inertia = np.diag(mass)
+    if np.count_nonzero(mass) > len(mass) or not (inertia > 0).all():
+        return scipy.linalg.eigh(stiffness, mass)
+    scale = 1 / np.sqrt(inertia)
+    square, modes = scipy.linalg.eigh(stiffness * scale * scale[:, None], driver="evd", overwrite_a=True)
+    return square, modes * scale[:, None]
+
+
 def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):
     """Modes of K x = (2 pi f)^2 M x, lowest first; a free body keeps its six rigid modes at 0 Hz.
 

@@ -10,7 +10,8 @@ with which both complex modes and motions over time are computed, so that they s
 """
 
 import numpy as np
-import scipy
+
+from pipeline.physics.modal.natural_modes import all_modes
 
 #: share of the highest frequency below which a motion is rigid
 _RIGID = 1e-7
@@ -38,7 +39,7 @@ def equivalent_motion(shape, stiffness, mass):
 
 def _weighted_modes(stiffness, mass):
     """(modes over the root of their angular frequency, mass times modes), each (n, m), without rigid motions."""
-    square, modes = scipy.linalg.eigh(stiffness, mass)
+    square, modes = all_modes(stiffness, mass)
     angular = np.sqrt(np.maximum(square, 0.0))
     moving = angular > _RIGID * angular[-1]
     modes, root = modes[:, moving], np.sqrt(angular[moving])

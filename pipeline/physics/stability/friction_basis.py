@@ -13,10 +13,9 @@ are orthonormalised in the mass; their singular values are amplitudes per unit o
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.sliding.model import spread
+from pipeline.physics.modal.natural_modes import all_modes
 
 
 @dataclass(frozen=True)
@@ -40,20 +39,20 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     terms are served as well. Raises ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
-    square, modes = scipy.linalg.eigh(stiffness, mass)
+    square, modes = all_modes(stiffness, mass)
     low = square < (2 * np.pi * below) ** 2
     frequency = np.sqrt(np.maximum(square, 0.0)) / (2 * np.pi)
     if not low.any():
         raise ConfigError("real modes", f"a mode below {below:g} Hz", f"the lowest at {frequency[0]:g} Hz")
     real, high = modes[:, low], modes[:, ~low]
-    drag, follower = model.friction_matrices(1.0, friction_damping)
-    rows = model.contacts.normal
-    force = [follower @ real, spread(rows, contact_stiffness, rows) @ real,
-             (damping + drag) @ real * (2 * np.pi * frequency[low])]
+    pace, rows = 2 * np.pi * frequency[low], model.contacts.normal
+    drag, follower = model.friction_products(1.0, real, friction_damping)
+    changed = np.broadcast_to(contact_stiffness, len(rows))
+    force = [follower, *([rows.T @ (changed[:, None] * (rows @ real))] if changed.any() else []),
+             (damping @ real + drag) * pace]
     force += [] if others is None else [other @ real for other in np.reshape(others, (-1, *mass.shape))]
     if adjoint is not None:
         drag, follower = model.friction_matrices(adjoint, friction_damping)
-        pace = 2 * np.pi * frequency[low]
         force += [follower.T @ real, drag.T @ real * pace, model.speed * model.gyroscopic @ real * pace]
     response = (high.T @ np.hstack(force)) / (square[~low, None] - np.tile(square[low], len(force)))
     direction, size, _ = np.linalg.svd(response, full_matrices=False)

@@ -9,7 +9,7 @@ from pipeline.physics.closed_form.axisymmetric_disc import section_frequencies
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from pipeline.physics.fem.mesh import block, revolve
 from pipeline.physics.modal import natural_modes
-from pipeline.physics.modal.natural_modes import lowest_modes, slopes
+from pipeline.physics.modal.natural_modes import all_modes, lowest_modes, slopes
 from pipeline.physics.numerics.sparse_solver import available, factorise
 
 pytestmark = pytest.mark.exact
@@ -167,3 +167,14 @@ def test_one_mode_in_many_that_misses_its_equation_is_told(wanted, spoilt, monke
     monkeypatch.setattr(natural_modes, "_lanczos", spoiled)
     with pytest.raises(ConvergenceError, match=f"in mode {spoilt + 1}"):
         lowest_modes(stiffness, mass, FASTEST, **wanted)
+
+
+@pytest.mark.parametrize("coupled", [False, True])
+def test_all_modes_of_diagonal_and_other_masses(coupled):
+    random = np.random.default_rng(4)
+    root, inertia = random.normal(size=(30, 30)), np.diag(1 + random.random(30))
+    inertia[0, 1] = inertia[1, 0] = 0.3 * coupled
+    square, modes = all_modes(root @ root.T, inertia)
+    np.testing.assert_allclose(modes.T @ inertia @ modes, np.eye(30), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(root @ root.T @ modes, inertia @ modes * square, rtol=0, atol=1e-11)
+    assert (np.diff(square) > 0).all()

@@ -7,7 +7,17 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
-from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel, sliding_model
+from pipeline.physics.sliding import model as module
+from pipeline.physics.sliding.model import (
+    Contacts,
+    FrictionState,
+    Joints,
+    SlidingModel,
+    congruent,
+    runs,
+    sliding_model,
+    spread,
+)
 from tests.stages.small_brake import small_brake, stiffening_brake
 
 
@@ -159,3 +169,66 @@ def test_linings_stiffen_with_the_pressure_of_a_state():
         np.testing.assert_allclose(made.damping, plain.damping, rtol=1e-12, atol=1e-9)
     assert np.abs(sliding_model(stiffening, 1, 10.0).damping - sliding_model(stiffening, 0, 10.0).damping).max() > 1e-3
     assert small_brake().lining_exponent == 0
+
+
+@pytest.fixture
+def by_body(monkeypatch):
+    monkeypatch.setattr(module, "_SHORT", 1)
+
+
+def scattered(share=0.7):
+    """A model of three bodies with random rows, each of them on two bodies, some contacts open."""
+    random, body = np.random.default_rng(5), np.repeat([0, 1, 2], [4, 3, 5])
+    beside = np.where(np.arange(6)[:, None] < 3, 1, 2)
+    rows = [np.where((body == 0) | (body == beside), random.normal(size=(6, 12)), 0.0) for _ in range(3)]
+    one = np.ones(6)
+    contacts = Contacts(*rows, np.zeros((6, 3)), one, one, 1 + random.random(6),
+                        1e3 * random.random(6) * (random.random(6) < share), random.random(6))
+    joints = Joints(("tie", "rod"), random.normal(size=(2, 12)), np.array([3e2, 2e2]), np.array([3.0, 0.0]))
+    inside = body[:, None] == body
+    square = [np.where(inside, random.normal(size=(12, 12)), 0.0) for _ in range(4)]
+    return SlidingModel(("disc", "pad", "other"), body, np.eye(12), *square, joints, contacts, ("press",), rows[0][:1],
+                        (), rows[0][:0], 2.0)
+
+
+def test_matrices_by_body_are_the_sums_over_all_rows(by_body):
+    model, friction = scattered(), FrictionState(0.4, 1e-3, -0.02)
+    contacts, joints, coupling = model.contacts, model.joints, model.coupling(friction)
+    _, damping, stiffness = model.linearised(friction)
+    expected = model.damping + 2.0 * model.gyroscopic + spread(joints.rows, joints.damping, joints.rows)
+    for left, weight, right in ((contacts.normal, contacts.damping, contacts.normal),
+                                (contacts.tangent, coupling * contacts.damping, contacts.normal),
+                                (contacts.tangent, contacts.preload * friction.speed_slope, contacts.tangent),
+                                (contacts.lateral, model.turning_drag(0.4), contacts.lateral)):
+        expected = expected + spread(left, weight, right)
+    np.testing.assert_allclose(damping, expected, rtol=0, atol=1e-13 * abs(expected).max())
+    expected = model.stiffness + 4.0 * model.centrifugal + spread(joints.rows, joints.stiffness, joints.rows)
+    expected = expected + spread(contacts.normal, contacts.stiffness, contacts.normal)
+    expected = expected + spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal)
+    np.testing.assert_allclose(stiffness, expected, rtol=0, atol=1e-13 * abs(expected).max())
+    parts = [a + b for a, b in zip(model.frictionless()[1:], model.friction_matrices(friction), strict=True)]
+    for part, whole in zip(parts, (damping, stiffness), strict=True):
+        np.testing.assert_allclose(part, whole, rtol=0, atol=1e-13 * abs(whole).max())
+
+
+@pytest.mark.parametrize("friction_damping", [False, True])
+def test_products_with_friction_matrices(friction_damping):
+    model, friction = scattered(), FrictionState(0.4, 1e-3, -0.02)
+    motion = np.random.default_rng(2).normal(size=(12, 3))
+    found = model.friction_products(friction, motion, friction_damping)
+    for product, matrix in zip(found, model.friction_matrices(friction, friction_damping), strict=True):
+        np.testing.assert_allclose(product, matrix @ motion, rtol=0, atol=1e-13 * abs(matrix).max())
+
+
+@pytest.mark.parametrize("complex_", [False, True])
+def test_projection_by_body_is_the_whole_one(complex_, by_body):
+    model, basis = scattered(), np.random.default_rng(2).normal(size=(12, 5))
+    matrix = model.stiffness + 1j * model.damping if complex_ else model.stiffness
+    for each in (matrix, matrix + matrix[::-1]):
+        np.testing.assert_allclose(congruent(each, basis, runs(model.coordinate_body)), basis.T @ each @ basis, rtol=0,
+                                   atol=1e-12)
+    assert runs(model.coordinate_body) == [slice(0, 4), slice(4, 7), slice(7, 12)]
+
+
+def test_short_runs_are_one():
+    assert runs(np.array([0, 1, 0])) == [slice(0, 3)] and runs(np.arange(2).repeat(30)) == [slice(0, 30), slice(30, 60)]
