@@ -38,7 +38,7 @@ from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, R
 
 TWO_PI = 2.0 * np.pi
 #: draws of one task of the fan-out
-_CHUNK = 25
+_CHUNK = 50
 #: lowest 1/3 octave band, Hz
 _LOWEST_BAND = 200.0
 

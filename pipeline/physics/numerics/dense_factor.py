@@ -16,9 +16,10 @@ class DenseFactor:
 
     def __init__(self, matrix, kind=complex):
         self._lu, exchanged = scipy.linalg.lu_factor(np.asarray(matrix, kind), check_finite=False)
-        self._order = np.arange(len(exchanged))
-        for row, other in enumerate(exchanged):
-            self._order[[row, other]] = self._order[[other, row]]
+        order = list(range(len(exchanged)))
+        for row, other in enumerate(exchanged.tolist()):
+            order[row], order[other] = order[other], order[row]
+        self._order = np.array(order, int)
 
     def solve(self, rhs, adjoint=False):
         """x (n,) of A x = rhs, or A^H x = rhs; a triangular product per factor, where getrs is made for many."""
