@@ -39,8 +39,9 @@ def growing_roots(damping, stiffness, change, limit):
     """(roots (r,) 1/s by falling growth rate, shapes (m, r)): all that grow, or nearly do, and the least stable one.
 
     ``damping`` (m, m) 1/s real; ``stiffness`` (m, m) 1/s^2 real symmetric and ``change`` (m, m) 1/s^2 complex are K_0
-    and dK; roots are below ``limit`` rad/s. Of roots that grow by less than 4e-4 of their frequency one may be missing
-    that the small problem puts as far on the stable side. Raises ConvergenceError where a root cannot be solved for.
+    and dK; roots are below ``limit`` rad/s. The small problem decides which are solved for: a root that grows by less
+    than 4e-4 of its frequency may be missing, and where none grows another than the least stable one may stand for it.
+    Raises ConvergenceError where a root cannot be solved for.
     """
     square, real = scipy.linalg.eigh(stiffness, driver="evd", check_finite=False)
     modes = _in_real_modes(damping, change, square, real.astype(np.float32))
