@@ -16,6 +16,7 @@ import scipy
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.modal.quadratic_eigenproblem import DenseFactors, by_frequency, polished
+from pipeline.physics.numerics.dense_factor import DenseFactor
 
 #: growth rates above this negative share of the frequency are solved for, as is the largest
 _NEARLY = 4e-4
@@ -104,11 +105,10 @@ class _Condensed:
 
     def shape(self, root):
         """(m,) of the mode of a root, by inverse iteration."""
-        operator = root**2 * self.mass + root * self.damping + self.stiffness
-        factor = scipy.linalg.lu_factor(operator, overwrite_a=True, check_finite=False)
-        vector = np.ones(len(operator))
+        factor = DenseFactor(root**2 * self.mass + root * self.damping + self.stiffness)
+        vector = np.ones(len(self.mass))
         for _ in range(_INVERSE):
-            vector = scipy.linalg.lu_solve(factor, vector, check_finite=False)
+            vector = factor.solve(vector)
             vector = vector / np.linalg.norm(vector)
         return np.concatenate((vector, (self.answers[0] + root * self.answers[1]) @ vector))
 

@@ -29,6 +29,7 @@ from pipeline.physics.sliding.structural_damping import equivalent_damping
 #: coordinates of a body, on average, from which on matrices are worked on body by body
 _SHORT = 20
 
+
 @dataclass(frozen=True)
 class Joints:
     """Springs and dampers along the rows b (j, n): elongation b q; stiffness (j,) N/m, damping (j,) N s/m."""

@@ -370,9 +370,7 @@ def _quadratic(form, states):
 @njit
 def _powers(energy, state, y, rest, power):
     """Fill ``power`` (3,) W at ``state``: WORK, LOSS, ADDED."""
-    power[WORK] = state @ (energy.contact @ state)
-    for row in range(3):
-        power[WORK] += rest[row] @ y[row + 1]
+    power[WORK] = state @ (energy.contact @ state) + _worked(rest, y)
     power[LOSS], power[ADDED] = state @ (energy.loss @ state), state @ (energy.added @ state)
 
 

@@ -15,6 +15,7 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.growing_roots import growing_roots
+from pipeline.physics.modal.natural_modes import all_modes
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
 from pipeline.physics.stability.friction_basis import friction_basis
@@ -154,7 +155,7 @@ def _missing(first, about, training, speed):
     """
     family = first.family
     mass, _, stiffness = about.frictionless(gyroscopic=False, centrifugal=family.centrifugal)
-    square, modes = scipy.linalg.eigh(stiffness, mass, overwrite_a=True, check_finite=False)
+    square, modes = all_modes(stiffness, mass)
     high = square > (2 * np.pi * first.below) ** 2
     answers = [np.empty((family.model.size, 0))]
     for factors in training:
