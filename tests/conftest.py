@@ -1,4 +1,5 @@
-"""One thread for each process of the tests; public recordings are found, or tests of them skip with the reason."""
+"""One thread and one worker for each process of the tests, which run side by side on all cores; public recordings are
+found, or tests of them skip with the reason."""
 
 import os
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 from pipeline.environment import ONE_THREAD
 
 os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
+os.environ["BRAKECHAIN_WORKERS"] = "1"      # processes of short tasks would take longer to start than to compute
 
 _VARIABLE = "BRAKECHAIN_DATA"
 _BESIDE = Path(__file__).parents[2] / "shared" / "data"

@@ -35,9 +35,9 @@ def contents(folder):
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory):
-    """Folder of a finished quick run; read only: copy it before you change it."""
+    """Folder of a quick run finished by two processes, others go with one; read only: copy it before you change it."""
     folder = tmp_path_factory.mktemp("finished") / "disc_brake_quick"
-    brakechain("run", QUICK, "--run", folder)
+    brakechain("run", QUICK, "--run", folder, "--workers", 2)
     return folder
 
 

@@ -31,8 +31,8 @@ main()
 
 
 def killed_after(seconds, folder, case=QUICK):
-    run = subprocess.Popen([sys.executable, "-m", "pipeline", "run", str(case), "--run", str(folder)], cwd=ROOT,
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    command = [sys.executable, "-m", "pipeline", "run", str(case), "--run", str(folder), "--workers", "2"]
+    run = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(seconds)
     run.send_signal(signal.SIGKILL)
     return run.wait()
