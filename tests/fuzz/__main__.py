@@ -16,6 +16,8 @@ os.environ.update(ONE_THREAD | SAFE)       # before anything loads linear algebr
 
 #: failures shown of each target
 _SHOWN = 10
+#: seconds that each target has at least, also after one that took more than its share
+_LEAST = 1.0
 
 
 def main():
@@ -34,7 +36,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="brakechain-fuzz-") as folder:
         tempfile.tempdir = folder
         for left, name in zip(range(len(options.only), 0, -1), options.only, strict=True):
-            until = time.monotonic() + max(end - time.monotonic(), 0.0) / left
+            until = time.monotonic() + max((end - time.monotonic()) / left, _LEAST)
             row, failed = _tried(targets[name], options.seed, ledger.next_number(name, options.seed), until)
             rows, failures = [*rows, row], [*failures, *failed]
             print(f"{name:<10} {row.tried:>7} tried, {row.failed} failed", flush=True)

@@ -49,11 +49,15 @@ def project(tmp_path, monkeypatch):
 
 
 def environment(project):
-    """Variables of a process that runs the project and caches in a folder beside it."""
+    """Variables of a process that runs the project and caches in a folder beside it.
+
+    Python's own bytecode, which it takes for that of a source as long and as old to the second, is not kept.
+    """
     home = project.parent / "compiled"
     home.mkdir(exist_ok=True)
     locators = "pipeline.physics.numerics.compiled_cache.SourceLocator"
-    return {**os.environ, CACHE: str(home), LOCATORS: locators, "PYTHONPATH": str(project.parent)}
+    return {**os.environ, CACHE: str(home), LOCATORS: locators, "PYTHONPATH": str(project.parent),
+            "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 def answer(project):
