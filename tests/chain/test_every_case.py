@@ -13,10 +13,10 @@ from tests.chain.conftest import ROOT, brakechain
 from tests.studies import brake, brake_stops, self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
-SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_rupture", "pin_on_disc",
-                         "pin_on_disc_paper_step"), [pytest.mark.slow]),
-        **dict.fromkeys(("disc_brake_matrix", "pin_on_disc_bench", "disc_brake_bench", "squealing_brake_bench",
-                         "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines",
+SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "pin_on_disc", "pin_on_disc_paper_step"),
+                        [pytest.mark.slow]),
+        **dict.fromkeys(("disc_brake_paper_joints", "disc_brake_matrix", "pin_on_disc_bench", "disc_brake_bench",
+                         "squealing_brake_bench", "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines",
                          "bimaterial_rupture_fine", "beam_geometry"), [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer", "disc_brake_scanned"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),

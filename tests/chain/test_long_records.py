@@ -87,7 +87,7 @@ def events(folder):
 
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is read from /proc")
-@pytest.mark.parametrize("write", [audio, mdf, tdms])
+@pytest.mark.parametrize("write", [audio, *(pytest.param(each, marks=pytest.mark.study) for each in (mdf, tdms))])
 def test_memory_does_not_grow_with_the_record(tmp_path, write):
     """Four minutes of four channels (197 MB as WAV, 295 MB as MDF) beside one: import, events and page."""
     short, long = run(tmp_path / "short", write, 60), run(tmp_path / "long", write, 240)

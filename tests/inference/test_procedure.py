@@ -188,6 +188,7 @@ def test_no_control_of_the_toy_bench_is_given_a_name(noise):
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_linearised_p_values_agree_with_full_refits_under_the_null():
     """The share of controls whose best refitted gain passes the bound of the linearised null is that of the bound."""
     every_score = changed("screening", p_value=1.0)
