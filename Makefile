@@ -10,7 +10,7 @@ SEALED ?= data/trial/sealed_3
 SEED   ?= 1
 SECONDS ?= 600
 AGAIN ?= data/runs/trial_again
-#: bytecode is kept, whatever the surroundings say: tests start thousands of processes
+# Python keeps bytecode, whatever the surroundings say: runs start dozens of processes, tests thousands
 export PYTHONDONTWRITEBYTECODE :=
 STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report convergence limit_cycle probability sensitivities design_search countermeasures interface_law friction_descriptions pin_on_disc transient lock_in lumped matrices matrix_modes rupture beam_on_beam motion_scatter beam_geometry recording noise_events orders response_functions modal_test model_update bench diagnosis line_evidence noise_matrix friction_update
 
