@@ -1,0 +1,50 @@
+"""CPU seconds of the tests: the slowest are printed after every run, and folders over their budget.
+
+A test is charged with what its worker and the processes that it waited for have used since the test before: its fixtures
+of a wider scope too, so that the first test of a file pays for what all of it shares.
+"""
+
+import os
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+#: tests printed
+_SLOWEST = 20
+#: a file to which (CPU seconds, test) of every test is written, for a closer look
+_TABLE = "BRAKECHAIN_TEST_COSTS"
+
+_since = os.times()
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport():
+    """Write into the report of each phase what it has cost."""
+    global _since
+    outcome = yield
+    now = os.times()
+    outcome.get_result().cpu_seconds = sum(now[:4]) - sum(_since[:4])
+    _since = now
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Print the slowest tests, and write all where a table is asked for."""
+    costs = of(report for reports in terminalreporter.stats.values() for report in reports)
+    if not costs:
+        return
+    order = sorted(costs, key=costs.get, reverse=True)
+    if table := os.environ.get(_TABLE):
+        Path(table).write_text("".join(f"{costs[test]:.3f}\t{test}\n" for test in order), encoding="utf-8")
+    terminalreporter.section(f"{sum(costs.values()):.0f} CPU seconds; the {_SLOWEST} slowest of {len(order)} tests")
+    for test in order[:_SLOWEST]:
+        terminalreporter.line(f"{costs[test]:8.1f}  {test}")
+
+
+def of(reports):
+    """{test: CPU seconds} of all phases of all tests."""
+    costs = defaultdict(float)
+    for report in reports:
+        if hasattr(report, "cpu_seconds"):
+            costs[report.nodeid] += report.cpu_seconds
+    return dict(costs)
