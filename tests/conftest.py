@@ -1,13 +1,16 @@
-"""One thread and one worker for each process of the tests, which run side by side on all cores; public recordings are
-found, or tests of them skip with the reason."""
+"""One thread and one worker for each process of the tests, which run side by side on all cores; readers of files in
+these processes; public recordings are found, or tests of them skip with the reason."""
 
+import json
 import os
+import warnings
 from pathlib import Path
 
 import pytest
 
+from pipeline.contract.received import process
 from pipeline.environment import ONE_THREAD
-from tests.cost import pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401: hooks
+from tests.cost import pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401
 
 os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
 os.environ["BRAKECHAIN_WORKERS"] = "1"      # processes of short tasks would take longer to start than to compute
@@ -26,3 +29,18 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if item.get_closest_marker("measured"):
             item.add_marker(pytest.mark.skip(reason=f"no public recordings at {_DATA}; set {_VARIABLE}"))
+
+
+@pytest.fixture(autouse=True)
+def _readers_here(request, monkeypatch):
+    """Readers of files run in the process of the test; in processes of their own where it is marked ``apart``."""
+    if not request.node.get_closest_marker("apart"):
+        monkeypatch.setattr(process, "started", _read_here)
+
+
+def _read_here(reader, path, folder, limits, given):
+    """``process.started`` without the start of a process, with its limits left out."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        process.leave(reader, str(Path(path).absolute()), str(folder), limits.memory, json.loads(json.dumps(given)))
+    return 0

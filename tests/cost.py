@@ -1,7 +1,7 @@
 """CPU seconds of the tests: the slowest are printed after every run, and folders over their budget.
 
-A test is charged with what its worker and the processes that it waited for have used since the test before: its fixtures
-of a wider scope too, so that the first test of a file pays for what all of it shares.
+A test is charged with what its worker and the processes that it waited for have used since the test before. That
+includes fixtures of a wider scope: the first test of a file pays for what all of it shares.
 """
 
 import os

@@ -1,30 +1,16 @@
 """One undisturbed run of the quick case, made once for all tests of the chain."""
 
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from stages import CHAINS
 from tests.chain.run_contents import everything
+from tests.commands import ROOT, process
 
-ROOT = Path(__file__).parents[2]
 NAMES = CHAINS["disc_brake"]
 QUICK = ROOT / "configs" / "disc_brake_quick.yaml"
-
-
-def brakechain(*args, code=0):
-    """Run the command line from the project's root; checks its exit code, and says how far it came in half an hour."""
-    try:
-        done = subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True,
-                              cwd=ROOT, timeout=1800)
-    except subprocess.TimeoutExpired as stopped:
-        told = b"".join(filter(None, (stopped.stdout, stopped.stderr))).decode(errors="replace")
-        raise AssertionError(f"{' '.join(map(str, args))}: stopped after {stopped.timeout:g} s\n{told}") from None
-    assert done.returncode == code, done.stdout + done.stderr
-    return done
 
 
 def contents(folder):
@@ -37,7 +23,7 @@ def contents(folder):
 def finished(tmp_path_factory):
     """Folder of a quick run finished by two processes, others go with one; read only: copy it before you change it."""
     folder = tmp_path_factory.mktemp("finished") / "disc_brake_quick"
-    brakechain("run", QUICK, "--run", folder, "--workers", 2)
+    process("run", QUICK, "--run", folder, "--workers", 2)
     return folder
 
 

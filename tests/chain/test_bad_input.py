@@ -9,7 +9,8 @@ import pytest
 from pipeline.contract import store
 from pipeline.contract.integrity import checksum
 from pipeline.products import Transient
-from tests.chain.conftest import QUICK, ROOT, brakechain
+from tests.chain.conftest import QUICK
+from tests.commands import ROOT, brakechain
 
 
 def refused(code, *args):

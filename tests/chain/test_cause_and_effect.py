@@ -5,7 +5,8 @@ import pytest
 
 from pipeline.contract import store
 from pipeline.products import Squeal
-from tests.chain.conftest import QUICK, brakechain
+from tests.chain.conftest import QUICK
+from tests.commands import brakechain
 
 #: change of a level that a user would see, dB
 VISIBLE = 0.01

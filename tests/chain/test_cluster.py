@@ -8,7 +8,8 @@ import pytest
 
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from tests.blind_trial.protocol.their_set import their_set
-from tests.chain.conftest import QUICK, ROOT, brakechain, contents
+from tests.chain.conftest import QUICK, contents
+from tests.commands import ROOT, brakechain
 from tests.contract.executors.dask_processes import address_of, cluster, scheduler, worker
 
 pytest.importorskip("distributed")

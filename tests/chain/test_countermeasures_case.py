@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.contract import store
 from pipeline.products import Countermeasures
-from tests.chain.conftest import brakechain
+from tests.commands import brakechain
 
 DAMPED = """based_on: my_brake_quick.yaml
 title: damping shims

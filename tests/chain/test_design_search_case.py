@@ -11,7 +11,7 @@ from pipeline.case_models.design_search.space import space_of
 from pipeline.contract import case, store
 from pipeline.products import ComplexModes, Countermeasures, DesignSearch, Sensitivities
 from stages import CHAINS, load
-from tests.chain.conftest import brakechain
+from tests.commands import brakechain
 
 #: soft fingers are what this brake squeals by; the pins and the seal hardly matter
 SEARCHED = """based_on: my_brake_quick.yaml

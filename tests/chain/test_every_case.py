@@ -9,7 +9,7 @@ import pytest
 from pipeline.contract import store
 from pipeline.products import Comparison, Convergence, LockIn
 from pipeline.views.pages import facts
-from tests.chain.conftest import ROOT, brakechain
+from tests.commands import ROOT, brakechain
 from tests.studies import brake, brake_stops, self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.chain.conftest import ROOT, brakechain
+from tests.commands import ROOT, brakechain
 
-pytestmark = pytest.mark.measured
+pytestmark = [pytest.mark.measured, pytest.mark.apart]
 HOSTILE = Path(os.environ.get("BRAKECHAIN_DATA", "../shared/data")) / "hostile"
 DAMAGED = "expected an undamaged file, found"
 #: file -> (exit code, what its sentence says)

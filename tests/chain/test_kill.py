@@ -10,7 +10,8 @@ import time
 import pytest
 
 from stages import CHAINS
-from tests.chain.conftest import QUICK, ROOT, brakechain, contents
+from tests.chain.conftest import QUICK, contents
+from tests.commands import ROOT, brakechain
 
 #: a run that dies in the middle of writing one product
 DIE_IN_MID_WRITE = """

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.chain.conftest import ROOT
 from tests.chain.resident_memory import peaks
+from tests.commands import ROOT
 
 RATE = 51200
 #: channels of a file, and their amplitudes

@@ -5,7 +5,7 @@ import pytest
 
 from pipeline.contract import documents, store
 from pipeline.products import LineEvidence, NoiseMatrix
-from tests.chain.conftest import ROOT, brakechain
+from tests.commands import ROOT, brakechain
 
 RATE, TONE = 48000, 5.2e3
 HALF = 0.7071067811865476

@@ -5,7 +5,7 @@ import pytest
 
 from pipeline.contract import store
 from pipeline.products import Sensitivities
-from tests.chain.conftest import brakechain
+from tests.commands import brakechain
 
 
 @pytest.fixture

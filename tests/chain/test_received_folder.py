@@ -14,8 +14,10 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.executors import LocalProcesses
 from pipeline.environment import fix
 from pipeline.views.figures import scene
-from tests.chain.conftest import ROOT
+from tests.commands import ROOT
 from tests.contract.toy import CHAINS, load
+
+pytestmark = pytest.mark.apart
 
 #: modules that children of this program import, here as a received folder may bring them
 NAMES = ("numpy.py", "pickle.py", "multiprocessing.py", "threadpoolctl.py", "json.py", "pipeline/__init__.py",

@@ -5,7 +5,8 @@ import pytest
 from pipeline.contract.integrity import seen
 from pipeline.products import FrictionMap
 from stages import CHAINS
-from tests.chain.conftest import QUICK, brakechain, contents
+from tests.chain.conftest import QUICK, contents
+from tests.commands import brakechain
 
 NAMES = CHAINS["disc_brake"]
 TABLES = {f"friction_map.{kind}" for kind in ("csv", "inp", "adm", "txt")}

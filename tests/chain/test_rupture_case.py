@@ -9,8 +9,9 @@ from pipeline.contract.case import load
 from pipeline.products import Comparison, Rupture
 from stages import CHAINS
 from stages import load as stage_of
-from tests.chain.conftest import ROOT, brakechain, contents
+from tests.chain.conftest import contents
 from tests.chain.test_kill import killed_after, killed_while_writing
+from tests.commands import ROOT, brakechain
 
 QUICK = ROOT / "configs" / "bimaterial_rupture_quick.yaml"
 

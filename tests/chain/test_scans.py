@@ -14,7 +14,7 @@ from stages.micro_friction import Settings as MicroSettings
 from stages.micro_friction import micro_friction
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
-from tests.chain.conftest import ROOT
+from tests.commands import ROOT
 
 SURFACES = Path(os.environ.get("BRAKECHAIN_DATA", ROOT.parent / "shared" / "data")) / "surfaces"
 SCANS = ("al3d-1.al3d", "di-1.di", "metropro-1.dat", "opd-1.opd", "plu-1.plu", "x3p-2.x3p")

@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from tests.chain.conftest import QUICK, ROOT, contents
+from tests.chain.conftest import QUICK, contents
+from tests.commands import ROOT
 
 CASE = ROOT / "configs" / "two_mode_flutter.yaml"
 PRODUCTS = ("lumped", "effects", "reduced_model", "complex_modes", "transient", "comparison", "report")

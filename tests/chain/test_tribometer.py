@@ -9,7 +9,7 @@ import pytest
 
 from pipeline.contract import store
 from pipeline.products import Diagnosis, FrictionUpdate
-from tests.chain.conftest import ROOT, brakechain
+from tests.commands import ROOT, brakechain
 
 RIVALS = {"compliant_arm": "arm", "micro_slip": "contact"}
 

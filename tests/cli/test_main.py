@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import stages
+from tests import commands
 
 
-def brakechain(*args, cwd=None):
-    return subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True, cwd=cwd,
-                          timeout=120)
+def brakechain(*args):
+    return commands.brakechain(*args, code=None)
 
 
 HEAVY = {"skfem", "pyvista", "exudyn", "numba", "matplotlib", "SurfaceTopography", "pypardiso"}

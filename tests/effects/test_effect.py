@@ -19,9 +19,11 @@ from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import pressed, rubbing, tabled
 
 BASE, RUN = rubbing(), pressed()
+#: all that RUN does, in a fifth of its steps
+SHORT = pressed(RUN.duration / 5)
 BENCHES = {"penalty": BASE, "table": rubbing(tabled())}
-ANSWERS = {law: respond(bench, RUN) for law, bench in BENCHES.items()}
-ANSWER = ANSWERS["penalty"]
+SHORT_ANSWERS = {law: respond(bench, SHORT) for law, bench in BENCHES.items()}
+ANSWER = respond(BASE, RUN)
 #: effects at the scale of the roughness only have no location on a bench (tests/effects/test_micro_scale.py)
 ON_BENCHES = tuple(e for e in CATALOGUE if e.location != ASPERITIES)
 UPPER = 0.75        # quartile: in the middle of a prior of either sign lies the null
@@ -52,8 +54,8 @@ def test_null_is_the_base_bit_for_bit(effect):
     for law, bench in BENCHES.items():
         for location, parameters in everywhere(effect, law):
             assert any(p.null is not None for p in parameters)
-            found = respond(effect.on(bench, location, null_values(parameters)), RUN)
-            for name, values in ANSWERS[law].items():
+            found = respond(effect.on(bench, location, null_values(parameters)), SHORT)
+            for name, values in SHORT_ANSWERS[law].items():
                 np.testing.assert_array_equal(found[name], values)
 
 
@@ -84,7 +86,7 @@ def test_finite_over_the_prior(effect):
         tried += len(draws)
         for values in draws:
             try:
-                found = respond(effect.on(BASE, location, values), RUN)
+                found = respond(effect.on(BASE, location, values), SHORT)
             except BrakechainError:
                 refused += 1
                 continue
@@ -167,7 +169,7 @@ def test_pairs_can_be_composed():
     for first, second in zip(ON_BENCHES, ON_BENCHES[1:], strict=False):
         terms = [Term(e, location, shaped_values(parameters, UPPER)) for e in (first, second)
                  for location, parameters in everywhere(e)[:1]]
-        found = respond(compose(BASE, terms), RUN)
+        found = respond(compose(BASE, terms), SHORT)
         assert all(np.isfinite(v).all() for v in found.values()), (first.name, second.name)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from pipeline.contract import store
 from pipeline.products import Bench, Diagnosis
-from tests.chain.conftest import ROOT, brakechain
+from tests.commands import ROOT, brakechain
 
 pytestmark = [pytest.mark.measured, pytest.mark.published, pytest.mark.slow, pytest.mark.study]
 

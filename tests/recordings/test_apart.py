@@ -14,6 +14,8 @@ from pipeline.recordings import apart
 from tests.recordings import test_neutral, test_uff
 from tests.recordings.files_of_others import SINE, mdf, sound, tdms
 
+pytestmark = pytest.mark.apart
+
 HOSTILE = Path(os.environ.get("BRAKECHAIN_DATA", "../shared/data")) / "hostile"
 
 

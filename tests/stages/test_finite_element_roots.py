@@ -12,7 +12,7 @@ from pipeline.case_models.steady_sliding import posed, sliding_friction
 from pipeline.contract import Context, case
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.recordings import registry
-from tests.chain.conftest import ROOT
+from tests.commands import ROOT
 from tests.stages.finite_elements import FiniteElements
 
 SPEED = 10.25

@@ -10,7 +10,7 @@ from stages.complex_modes import complex_modes
 from stages.probability import Settings, probability
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
-from tests.chain.conftest import ROOT
+from tests.commands import ROOT
 from tests.diagnosis.small_rig import effects
 from tests.stages.small_structure import small_friction_map, small_structure
 from tests.stages.two_processes import TwoProcesses

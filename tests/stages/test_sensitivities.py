@@ -19,7 +19,7 @@ from stages.probability import Settings as Draws
 from stages.probability import probability
 from stages.sensitivities import Settings, sensitivities
 from tests.case_models.sensitivity.curved_brake import curved_brake
-from tests.chain.conftest import ROOT, brakechain
+from tests.commands import ROOT, brakechain
 from tests.diagnosis.small_rig import effects
 from tests.stages.two_processes import TwoProcesses
 

@@ -13,7 +13,7 @@ from pipeline.products import FrictionMap
 from pipeline.recordings import registry
 from pipeline.systems.disc_brake_disc import disc_mesh
 from stages.structure import Joints, Settings, structure
-from tests.chain.conftest import ROOT
+from tests.commands import ROOT
 from tests.decks.meshes.small_decks import abaqus
 from tests.systems.test_disc_brake import COARSE
 from tests.systems.test_disc_brake_bracket import BODIES

@@ -15,6 +15,8 @@ from tests.contract.test_product import GOOD
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Source
 
+pytestmark = pytest.mark.apart
+
 
 def looping(path):
     """The product at ``path``, its heap of texts zeroed, where HDF5 goes round for ever, and sealed again."""

@@ -7,6 +7,8 @@ import pytest
 from pipeline.contract import ConfigError
 from pipeline.contract.received import process
 
+pytestmark = pytest.mark.apart
+
 
 def sleep(path, folder):
     """A reader that waits for what never comes, such as one that the machine leaves no processor."""

@@ -127,10 +127,10 @@ def test_limit_cycle_of_a_cubic_characteristic():
     slip = np.linspace(0, 1.2, 2401)
     mu = static - drop * (1.5 * slip / width - 0.5 * (slip / width) ** 3)
     amplitude = 2 * np.sqrt(width**2 - speed**2 - 2 * damping * width**3 / (3 * load * drop))
-    for begin in (0.3, 1.3):
-        motion = simulate(belt(100.0, damping, speed), Hard(), tabulated(slip, mu), step=2e-3, duration=3000.0,
+    for begin in (0.8, 1.2):
+        motion = simulate(belt(100.0, damping, speed), Hard(), tabulated(slip, mu), step=2e-3, duration=700.0,
                           inputs=[0.0, -load], record_every=7, start=at([begin * amplitude / 10, 0.0]))
-        late = motion.velocity[0, motion.time > 2900]
+        late = motion.velocity[0, motion.time > 600]
         assert np.sqrt(2) * late.std() == pytest.approx(amplitude, rel=0.005)
         assert motion.status_share[0, STICK] < 1e-4
 
