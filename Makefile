@@ -22,9 +22,11 @@ BIN    := .venv/bin
 INTERPRETER = $(patsubst 3.%,python3.%,$(PYTHON))
 OTHER  = .venv-$(subst python,,$(notdir $(PYTHON)))
 FAST  := -m pytest -q -rs -m "not slow" -n auto --dist loadfile
+#: tests of the trial and of the studies have a target of their own, unless they are asked for
+IGNORED = $(if $(filter tests,$(TESTS)),--ignore=tests/blind_trial/generators --ignore=tests/studies)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -48,16 +50,24 @@ $(TESTED): $(READY) requirements-dev.lock
 run: $(READY)    ## run the chain of CASE; up-to-date stages are skipped
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
-test: $(TESTED)   ## all tests except slow ones; lists skipped tests with reasons
-	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
+test: $(TESTED)   ## all tests except slow ones and those of the trial; lists skipped tests with reasons
+	$(BIN)/python $(FAST) $(IGNORED) $(ARGS) $(TESTS)
+
+setup-tests: $(TESTED)   ## create the virtual environment with all that tests need
+
+test-trial: $(TESTED)    ## tests of the trial's generators and of the studies, if what they depend on has changed since they passed
+	$(BIN)/python -m tests.trial_changes $(ARGS)
+
+test-default: $(TESTED)  ## the default case in full, with a fifth of its draws, against the published facts
+	$(BIN)/python -m pytest -q "tests/chain/test_every_case.py::test_a_case_runs_to_its_report[disc_brake]" $(ARGS)
 
 coverage: $(TESTED)  ## the same tests, with line coverage of pipeline/ and stages/
-	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile --cov=pipeline --cov=stages --cov-report=term:skip-covered $(ARGS) $(TESTS)
+	$(BIN)/python $(FAST) --cov=pipeline --cov=stages --cov-report=term:skip-covered $(ARGS) $(TESTS)
 
 test-kernels: $(TESTED)  ## tests sensitive to rounding, with the kernels of other processors (KERNELS of OpenBLAS, MKL, numba)
 	@for kernel in $(KERNELS); do echo "OpenBLAS kernel $$kernel"; \
 		OPENBLAS_CORETYPE=$$kernel MKL_ENABLE_INSTRUCTIONS=SSE4_2 NUMBA_CPU_NAME=generic \
-		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
+		$(BIN)/python $(FAST) $(ARGS) $(ROUNDING) || exit 1; done
 
 test-python:     ## the same tests under another Python with the same lock: PYTHON=3.13
 	@$(INTERPRETER) -c '' 2>/dev/null || { echo "error: PYTHON=$(PYTHON): expected an interpreter, found no $(INTERPRETER);" \
