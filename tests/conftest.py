@@ -1,6 +1,7 @@
 """One thread and one worker for each process of the tests, which run side by side on all cores; readers of files in
 these processes; public recordings are found, or tests of them skip with the reason."""
 
+import fcntl
 import json
 import os
 import warnings
@@ -44,3 +45,21 @@ def _read_here(reader, path, folder, limits, given):
         warnings.simplefilter("ignore")
         process.leave(reader, str(Path(path).absolute()), str(folder), limits.memory, json.loads(json.dumps(given)))
     return 0
+
+
+@pytest.fixture(scope="session")
+def once(tmp_path_factory):
+    """``once(name, make)``: a folder that ``make(folder)`` fills, in whichever process of the tests asks first."""
+    shared = tmp_path_factory.getbasetemp()
+    shared = shared.parent if "PYTEST_XDIST_WORKER" in os.environ else shared
+
+    def made(name, make):
+        folder, done = shared / name, shared / f"{name}.done"
+        with (shared / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not done.exists():
+                make(folder)
+                done.touch()
+        return folder
+
+    return made

@@ -20,11 +20,9 @@ def contents(folder):
 
 
 @pytest.fixture(scope="session")
-def finished(tmp_path_factory):
+def finished(once):
     """Folder of a quick run finished by two processes, others go with one; read only: copy it before you change it."""
-    folder = tmp_path_factory.mktemp("finished") / "disc_brake_quick"
-    process("run", QUICK, "--run", folder, "--workers", 2)
-    return folder
+    return once("disc_brake_quick", lambda folder: process("run", QUICK, "--run", folder, "--workers", 2))
 
 
 @pytest.fixture
