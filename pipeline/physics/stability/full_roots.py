@@ -1,57 +1,53 @@
 """Roots of the finite-element matrices without reduction, near those of a reduced model, and their residuals.
 
 A reduced model is a projection, so that its roots are off by what its basis leaves out of the right vectors times what
-it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, sparse and about the same sliding state,
-
-    x <- T(s0)^-1 T'(s0) x,    then    y^H T(s) x = 0,    x <- x - T(s0)^-1 T(s) x,
-
-where the first steps answer the contact motion of the reduced mode and the others are residual inverse iteration (see
-``polished``). The factor of T(s0) at one operating point serves its neighbours at other speeds as well, as long as the
-contacts then move as in the reduced mode.
+it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, sparse and about the same sliding state, a
+root is sought in a subspace of motions. It begins with the answer to the friction forces of the reduced mode, and grows
+by S^-1 T(s) x, x being the mode of T projected on it (nonlinear Arnoldi iteration: H. Voss, BIT Numer. Math. 44 (2004)
+387). S is the symmetric part of T(s0), whose factor, in single precision, takes a fifth of the time of one of T(s0): it
+says where to go on, not what the root is. Operating points and modes of nearly one frequency share S and the subspace.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import polished
-from pipeline.physics.numerics.dense_factor import product
 from pipeline.physics.numerics.sparse_solver import factorise
+from pipeline.physics.sliding.shared_operator import SlidingPoint, Subspace
 
-#: inverse iterations from the contact motion of the reduced mode
-_STARTS = 3
-#: rounds of residual inverse iteration until the residual meets its tolerance
-_ROUNDS = 5
-#: frequencies of one family differ from the next by no more than this share
-_FAMILY = 5e-3
+#: vectors of a subspace, those that the search for one root adds at most, and for how many there is room at its start
+_MOST, _STEPS, _ROOM = 96, 30, 12
+#: the last change of a root, as a share of it, and a residual that is rounding, after which there is none
+_ROOT, _EXACT = 1e-9, 1e-13
+#: frequencies of a family differ from its middle by no more than this share
+_FAMILY = 1e-2
 #: a root farther from that of the reduced model, as a share of it, is another one
 _FARTHEST = 5e-2
-#: MAC of the contact motion above which a root from the factor of another operating point is the one sought, and below
-#: which even that from a factor of its own is another one
+#: MAC of the contact motion above which a root in the subspace of others is the one sought, and below which even that
+#: in a subspace of its own is another one
 _ALIKE, _SAME = 0.95, 0.5
 
 
 @dataclass(frozen=True)
 class Guess:
-    """A ``root`` (1/s) of a reduced model and the motion (c,) of the contacts in it along ``rows`` (c, n) of the full
-    one, whose ``matrices`` are sparse (M, C, K)."""
+    """A ``root`` (1/s) of a reduced model, the motion (3c,) of the contacts in it, n, t and l, and where it slides."""
 
     root: complex
     motion: np.ndarray
-    rows: "scipy.sparse.csr_matrix"
-    matrices: tuple
+    point: SlidingPoint
 
 
 @dataclass(frozen=True)
 class FullRoot:
-    """A root (1/s), its vector (n,), its residual |T(s) x| / |K x|, the MAC of its contact motion with the guess."""
+    """A root (1/s), its vector (n,), its residual |T(s) x| / |K x|, the MAC of its contact motion with the guess, and
+    whether residual and root have ``settled``."""
 
     root: complex
     vector: np.ndarray
     residual: float
     likeness: float
+    settled: bool
 
 
 def sliding_as(full, model):
@@ -61,66 +57,91 @@ def sliding_as(full, model):
 
 
 def families(roots, state):
-    """Indices of ``roots`` (r,) of one ``state`` (r,) and nearly one frequency: arrays, from the middle out."""
-    order = np.lexsort((roots.imag, state))
-    frequency, state = roots.imag[order], np.asarray(state)[order]
-    apart = (np.diff(state) != 0) | (np.diff(frequency) > _FAMILY * frequency[1:])
-    return [group[np.argsort(abs(roots[group] - roots[group].mean()), kind="stable")]
-            for group in np.split(order, np.flatnonzero(apart) + 1)]
+    """Indices of ``roots`` (r,) 1/s of one ``state`` (r,) and nearly one frequency: arrays, from the middle of each out."""
+    order, groups = np.lexsort((roots.imag, state)), []
+    while len(order):
+        frequency, first = roots.imag[order], order[0]
+        near = (state[order] == state[first]) & (frequency <= frequency[0] * (1 + _FAMILY) / (1 - _FAMILY))
+        group, order = np.sort(order[near]), order[~near]
+        groups.append(group[np.argsort(abs(np.arange(len(group)) - (len(group) - 1) / 2), kind="stable")])
+    return groups
 
 
-def full_roots(guesses, solver, tolerance):
-    """A FullRoot for each Guess of a family of operating points, the first of which should be in its middle.
+def full_roots(guesses, operator, solver, tolerance):
+    """A FullRoot for each Guess of a family, the first of which should be in its middle, on a SharedOperator.
 
     Raises ConvergenceError where a residual exceeds ``tolerance`` or no such mode lies near the guess.
     """
-    factors, solved = _Factors(solver), []
+    search, solved = None, []
     for guess in guesses:
-        mode = _from(guess, factors, tolerance) if factors.ready else None
-        if mode is None or mode.likeness < _ALIKE:
-            mass, damping, stiffness = guess.matrices
-            factors.renew(guess.root**2 * mass + guess.root * damping + stiffness)
-            mode = _from(guess, factors, tolerance)
-        if not mode.residual <= tolerance or mode.likeness < _SAME or abs(mode.root / guess.root - 1) > _FARTHEST:
+        mode = search.mode(guess, tolerance) if search and search.room >= _ROOM else None
+        if mode is None or mode.likeness < _ALIKE or _missed(guess, mode):
+            search = None       # its factor and vectors give way to others
+            search = _Search(operator, guess, solver)
+            mode = search.mode(guess, tolerance)
+        if _missed(guess, mode):
             raise _not_there(guess, mode, tolerance)
         solved.append(mode)
     return solved
 
 
-class _Factors:
-    """The sparse factor in use, if it is ``ready``; another takes its place after its memory was released."""
+def _missed(guess, mode):
+    """Whether a FullRoot is none, or not that of a Guess."""
+    return not mode.settled or mode.likeness < _SAME or abs(mode.root / guess.root - 1) > _FARTHEST
 
-    def __init__(self, solver):
-        self._solver, self._factor = solver, None
+
+class _Search:
+    """The subspace in which the roots of a family are sought, and the factor with which it grows."""
+
+    def __init__(self, operator, guess, solver):
+        self._operator, self._space = operator, Subspace(operator, _MOST)
+        self._factor = factorise(operator.symmetric(guess.point, guess.root), solver, single=True)
 
     @property
-    def ready(self):
-        return self._factor is not None
+    def room(self):
+        """How many vectors more there is room for."""
+        return self._space.room
 
-    def renew(self, matrix):
-        self._factor = None
-        self._factor = factorise(matrix, self._solver, symmetric=False)
+    def mode(self, guess, tolerance):
+        """FullRoot from a Guess, as it is after as many steps as are allowed and there is room for."""
+        if not len(self._space) or self._likest(guess)[2] < _ALIKE:
+            self._space.add(self._factor.solve(self._begin(guess)))
+        root, mode = 0.0, None
+        for _ in range(_STEPS):
+            before, (root, weight, likeness) = root, self._likest(guess)
+            vector = self._space.vector(weight)
+            missed, elastic = self._operator.forces(guess.point, root, vector)
+            residual = float(np.linalg.norm(missed) / np.linalg.norm(elastic))
+            settled = residual <= min(tolerance, _EXACT) or (
+                residual <= tolerance and abs(root - before) <= _ROOT * abs(root))
+            mode = FullRoot(root, vector, residual, likeness, settled)
+            if settled or not self._space.room:
+                break
+            self._space.add(self._factor.solve(missed))
+        return mode
 
-    def solve(self, rhs, adjoint=False):
-        return self._factor.solve(rhs, adjoint)
+    def _begin(self, guess):
+        """Forces (n,) of a Guess: those of friction or, where there are none, some at the contacts that move."""
+        drawn = self._operator.drawn(guess.point, guess.root, guess.motion)
+        return drawn if drawn.any() else self._operator.rows.T @ guess.motion
+
+    def _likest(self, guess):
+        """(root, weight of the vectors, MAC) of the mode near a Guess whose contacts move most as in it."""
+        root, weight = small_modes(*self._space.matrices(guess.point), abs(guess.root))
+        near = np.flatnonzero(abs(root / guess.root - 1) <= _FARTHEST)
+        near = near if len(near) else np.array([np.argmin(abs(root - guess.root))])
+        moved, norm = self._space.motion(weight[:, near]), np.linalg.norm
+        likeness = (abs(guess.motion.conj() @ moved) / (norm(moved, axis=0) * norm(guess.motion))) ** 2
+        best = int(np.argmax(likeness))
+        return complex(root[near[best]]), weight[:, near[best]], float(likeness[best])
 
 
-def _from(guess, factors, tolerance):
-    """FullRoot from a Guess and a factor of T near it, which may give way to another."""
-    (mass, damping, stiffness), root = guess.matrices, guess.root
-    x, residual, norm = factors.solve(guess.rows.T @ guess.motion), np.inf, np.linalg.norm
-    for _ in range(_STARTS):
-        x = x / norm(x)
-        x = factors.solve(2 * root * product(mass, x) + product(damping, x))
-    for _ in range(_ROUNDS):
-        root, x = polished(mass, damping, stiffness, root, x, factors=factors, accuracy=tolerance)
-        forces = stiffness @ x
-        residual = norm(root * (root * product(mass, x) + product(damping, x)) + forces) / norm(forces)
-        if residual <= tolerance:
-            break
-    moved = guess.rows @ x
-    likeness = (abs(np.vdot(moved, guess.motion)) / (norm(moved) * norm(guess.motion))) ** 2
-    return FullRoot(root, x, float(residual), float(likeness))
+def small_modes(mass, damping, stiffness, pace):
+    """(roots (2m,) 1/s, vectors (m, 2m)) of complex matrices (m, m), of roots of about the size ``pace`` 1/s."""
+    m = len(mass)
+    lower = -np.linalg.solve(pace**2 * mass, np.hstack((stiffness, pace * damping)))
+    value, vector = np.linalg.eig(np.vstack((np.eye(m, 2 * m, m), lower)))
+    return pace * value, vector[:m]
 
 
 def _not_there(guess, mode, tolerance):

@@ -1,0 +1,140 @@
+"""T(s) = s^2 M + s C + K of a large sparse SlidingModel about its sliding states, in parts that all of these share.
+
+    T(s) = s^2 M + s (C + W G) + K + W^2 Kc + B^T (D + s E) B,    B = (n; t; l)
+
+The bodies stand in M, C, G, K and Kc, so that what these make of a motion serves every operating point: two of them
+differ in the speed W and in the coefficients D and E of the contacts alone.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+
+from pipeline.physics.numerics.dense_factor import product
+
+#: powers of s and W that the gyroscopic matrix stands with
+_GYROSCOPIC = (1, 1)
+
+
+@dataclass(frozen=True)
+class SlidingPoint:
+    """``speed`` W of the drive, and the sparse coefficients (3c, 3c) of the contacts: ``by_place`` D N/m, ``by_speed``
+    E N s/m."""
+
+    speed: float
+    by_place: "scipy.sparse.csr_matrix"
+    by_speed: "scipy.sparse.csr_matrix"
+
+    @classmethod
+    def of(cls, model, friction, friction_damping=True):
+        """Of a SlidingModel, dense or sparse, about steady sliding; arguments and errors as of its ``linearised``."""
+        count = len(model.contacts.area)
+        rows, none = scipy.sparse.identity(3 * count, format="csr"), scipy.sparse.csr_matrix((3 * count,) * 2)
+        contacts = replace(model.contacts, normal=rows[:count], tangent=rows[count:2 * count], lateral=rows[2 * count:])
+        alone = replace(model, mass=none, damping=none, gyroscopic=none, stiffness=none, centrifugal=none,
+                        joints=replace(model.joints, rows=none[:0], stiffness=np.empty(0), damping=np.empty(0)),
+                        contacts=contacts)
+        _, by_speed, by_place = alone.linearised(friction, friction_damping)
+        return cls(model.speed, by_place, by_speed)
+
+
+@dataclass(frozen=True)
+class SharedOperator:
+    """``terms``: each a sparse matrix (n, n) with the powers of s and W that it stands with, symmetric, real or complex,
+    but for the gyroscopic one, which is skew; ``rows`` B (3c, n)."""
+
+    terms: tuple
+    rows: "scipy.sparse.csr_matrix"
+
+    @classmethod
+    def of(cls, model, gyroscopic=True, centrifugal=True):
+        """Of a sparse SlidingModel, at any speed and sliding state."""
+        mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
+        terms = [(mass, 2, 0), (damping, 1, 0), (stiffness, 0, 0)]
+        terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
+        terms += [(model.centrifugal, 0, 2)] if centrifugal else []
+        contacts = model.contacts
+        return cls(tuple(term for term in terms if term[0].count_nonzero()),
+                   scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral), format="csr"))
+
+    def symmetric(self, point, root):
+        """The symmetric part of T(``root``) (n, n), sparse, at a SlidingPoint: without what friction transfers from
+        normal to tangential motion, and without what turns with the speed."""
+        contact = (point.by_place + root * point.by_speed).diagonal()
+        parts = [self.rows.T @ (scipy.sparse.diags(contact) @ self.rows)]
+        parts += [root**order * matrix for matrix, order, power in self.terms if not power]
+        return sum(sorted(parts[1:], key=lambda part: part.nnz), parts[0]).tocsr()
+
+    def drawn(self, point, root, motion):
+        """(n,) N: forces of friction on a ``motion`` (3c,) of the contacts that ``symmetric`` leaves out."""
+        coupling = point.by_place + root * point.by_speed
+        return self.rows.T @ ((coupling - scipy.sparse.diags(coupling.diagonal())) @ motion)
+
+    def forces(self, point, root, vector):
+        """(T(s) x, K x), each (n,) N, of a motion x at a SlidingPoint."""
+        inertial, elastic, moved = 0.0, 0.0, self.rows @ vector
+        for matrix, order, power in self.terms:
+            part = point.speed**power * product(matrix, vector)
+            inertial, elastic = (inertial + root**order * part, elastic) if order else (inertial, elastic + part)
+        elastic = elastic + self.rows.T @ (point.by_place @ moved)
+        return inertial + elastic + root * (self.rows.T @ (point.by_speed @ moved)), elastic
+
+
+class Subspace:
+    """Orthonormal vectors (n, m) of which motions are made, and a SharedOperator between them."""
+
+    def __init__(self, operator, most):
+        """Empty, with room for so many vectors at ``most``."""
+        self._operator, self._count = operator, 0
+        self._vectors = np.empty((operator.rows.shape[1], most), complex, order="F")
+        self._small = np.empty((len(operator.terms), most, most), complex)
+        self._moved = np.empty((operator.rows.shape[0], most), complex, order="F")
+
+    def __len__(self):
+        """Number of vectors m."""
+        return self._count
+
+    @property
+    def room(self):
+        """How many vectors more there is room for."""
+        return self._vectors.shape[1] - self._count
+
+    def add(self, vector):
+        """What a ``vector`` (n,) adds to those that are there."""
+        m, before = self._count, self._vectors[:, :self._count]
+        vector = np.asarray(vector, complex)
+        for _ in range(2):
+            vector = vector / np.linalg.norm(vector)
+            vector = vector - before @ (vector.conj() @ before).conj()
+        self._vectors[:, m] = vector = vector / np.linalg.norm(vector)
+        self._moved[:, m] = self._operator.rows @ vector
+        made = [product(matrix, vector) for matrix, *_ in self._operator.terms]
+        adjoint = [self._adjoint(term, vector, image) for term, image in zip(self._operator.terms, made, strict=True)]
+        column, row = np.split(np.array(made + adjoint).conj() @ self._vectors[:, :m + 1], 2)
+        self._small[:, :m + 1, m], self._small[:, m, :m + 1] = column.conj(), row
+        self._count = m + 1
+
+    @staticmethod
+    def _adjoint(term, vector, image):
+        """A^H x of a term of A and x, from the ``image`` A x where it is real."""
+        matrix, *powers = term
+        if np.iscomplexobj(matrix):
+            return (matrix @ vector.conj()).conj()
+        return -image if tuple(powers) == _GYROSCOPIC else image
+
+    def matrices(self, point):
+        """(M, C, K), each (m, m), at a SlidingPoint, projected on the vectors."""
+        m, moved, parts = self._count, self._moved[:, :self._count], [0.0, 0.0, 0.0]
+        for (_, order, power), small in zip(self._operator.terms, self._small, strict=True):
+            parts[order] = parts[order] + point.speed**power * small[:m, :m]
+        by_place, by_speed = (moved.conj().T @ (each @ moved) for each in (point.by_place, point.by_speed))
+        return parts[2], parts[1] + by_speed, parts[0] + by_place
+
+    def motion(self, weight):
+        """B x (3c, ...) of motions x by their ``weight`` (m, ...) of the vectors."""
+        return self._moved[:, :self._count] @ weight
+
+    def vector(self, weight):
+        """x (n,)."""
+        return self._vectors[:, :self._count] @ weight
