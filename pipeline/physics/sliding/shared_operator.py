@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from pipeline.physics.numerics.dense_factor import product
-
 #: powers of s and W that the gyroscopic matrix stands with
 _GYROSCOPIC = (1, 1)
+#: what is left of a vector of unit length that counts as rounding
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -67,18 +67,25 @@ class SharedOperator:
         return sum(sorted(parts[1:], key=lambda part: part.nnz), parts[0]).tocsr()
 
     def drawn(self, point, root, motion):
-        """(n,) N: forces of friction on a ``motion`` (3c,) of the contacts that ``symmetric`` leaves out."""
+        """(n,) N: forces of friction at a ``motion`` (3c,) of the contacts, which ``symmetric`` leaves out."""
         coupling = point.by_place + root * point.by_speed
         return self.rows.T @ ((coupling - scipy.sparse.diags(coupling.diagonal())) @ motion)
 
-    def forces(self, point, root, vector):
-        """(T(s) x, K x), each (n,) N, of a motion x at a SlidingPoint."""
-        inertial, elastic, moved = 0.0, 0.0, self.rows @ vector
-        for matrix, order, power in self.terms:
-            part = point.speed**power * product(matrix, vector)
-            inertial, elastic = (inertial + root**order * part, elastic) if order else (inertial, elastic + part)
-        elastic = elastic + self.rows.T @ (point.by_place @ moved)
-        return inertial + elastic + root * (self.rows.T @ (point.by_speed @ moved)), elastic
+    def products(self, vectors):
+        """[A x (n, g) of every term and x of ``vectors`` (n, g)]."""
+        return [_product(matrix, vectors) for matrix, *_ in self.terms]
+
+    def forces(self, points, roots, vectors):
+        """(T(s) x, K x), each (n, g) N, of motions x (n, g) at SlidingPoints and ``roots`` s (g,)."""
+        whole, elastic = np.zeros_like(vectors), np.zeros_like(vectors)
+        for (_, order, power), image in zip(self.terms, self.products(vectors), strict=True):
+            image = image * [point.speed**power for point in points]
+            elastic += 0.0 if order else image
+            whole += roots**order * image
+        moved = self.rows @ vectors
+        pressed, dragged = (np.stack([getattr(point, name) @ moved[:, k] for k, point in enumerate(points)], axis=1)
+                            for name in ("by_place", "by_speed"))
+        return whole + self.rows.T @ (pressed + roots * dragged), elastic + self.rows.T @ pressed
 
 
 class Subspace:
@@ -100,28 +107,25 @@ class Subspace:
         """How many vectors more there is room for."""
         return self._vectors.shape[1] - self._count
 
-    def add(self, vector):
-        """What a ``vector`` (n,) adds to those that are there."""
-        m, before = self._count, self._vectors[:, :self._count]
-        vector = np.asarray(vector, complex)
-        for _ in range(2):
-            vector = vector / np.linalg.norm(vector)
-            vector = vector - before @ (vector.conj() @ before).conj()
-        self._vectors[:, m] = vector = vector / np.linalg.norm(vector)
-        self._moved[:, m] = self._operator.rows @ vector
-        made = [product(matrix, vector) for matrix, *_ in self._operator.terms]
-        adjoint = [self._adjoint(term, vector, image) for term, image in zip(self._operator.terms, made, strict=True)]
-        column, row = np.split(np.array(made + adjoint).conj() @ self._vectors[:, :m + 1], 2)
-        self._small[:, :m + 1, m], self._small[:, m, :m + 1] = column.conj(), row
-        self._count = m + 1
+    def add(self, vectors):
+        """What ``vectors`` (n, g), none of them zero, add to those that are there; there must be room for all."""
+        m, new = self._count, self._beside(np.asarray(vectors, complex))
+        part, self._count = slice(m, m + new.shape[1]), m + new.shape[1]
+        self._vectors[:, part], self._moved[:, part] = new, self._operator.rows @ new
+        whole = self._vectors[:, :self._count].conj().T
+        for term, small, image in zip(self._operator.terms, self._small, self._operator.products(new), strict=True):
+            small[:self._count, part] = whole @ image
+            small[part, :m] = (whole[:m] @ _adjoint(term, new, image)).conj().T
 
-    @staticmethod
-    def _adjoint(term, vector, image):
-        """A^H x of a term of A and x, from the ``image`` A x where it is real."""
-        matrix, *powers = term
-        if np.iscomplexobj(matrix):
-            return (matrix @ vector.conj()).conj()
-        return -image if tuple(powers) == _GYROSCOPIC else image
+    def _beside(self, vectors):
+        """Orthonormal (n, h) for what is not rounding of the ``vectors``."""
+        before = self._vectors[:, :self._count]
+        for _ in range(2):
+            size = np.linalg.norm(vectors, axis=0)
+            vectors = vectors[:, size > _ROUNDING] / size[size > _ROUNDING]
+            vectors = vectors - before @ (before.conj().T @ vectors)
+        direction, size, _ = np.linalg.svd(vectors, full_matrices=False)
+        return direction[:, size > _ROUNDING]
 
     def matrices(self, point):
         """(M, C, K), each (m, m), at a SlidingPoint, projected on the vectors."""
@@ -135,6 +139,21 @@ class Subspace:
         """B x (3c, ...) of motions x by their ``weight`` (m, ...) of the vectors."""
         return self._moved[:, :self._count] @ weight
 
-    def vector(self, weight):
-        """x (n,)."""
+    def vectors(self, weight):
+        """x (n, ...)."""
         return self._vectors[:, :self._count] @ weight
+
+
+def _product(matrix, vectors):
+    """``matrix`` @ ``vectors`` (n, g); a real one is not copied into complex numbers."""
+    if np.iscomplexobj(matrix):
+        return matrix @ vectors
+    return matrix @ np.ascontiguousarray(vectors.real) + 1j * (matrix @ np.ascontiguousarray(vectors.imag))
+
+
+def _adjoint(term, vectors, image):
+    """A^H x (n, g) of a term of A and x, from the ``image`` A x where A is real."""
+    matrix, *powers = term
+    if np.iscomplexobj(matrix):
+        return (matrix @ vectors.conj()).conj()
+    return -image if tuple(powers) == _GYROSCOPIC else image

@@ -16,8 +16,8 @@ from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.sliding.shared_operator import SlidingPoint, Subspace
 
-#: vectors of a subspace, those that the search for one root adds at most, and for how many there is room at its start
-_MOST, _STEPS, _ROOM = 96, 30, 12
+#: vectors of a subspace, and rounds that each add one for every root
+_MOST, _ROUNDS = 96, 30
 #: the last change of a root, as a share of it, and a residual that is rounding, after which there is none
 _ROOT, _EXACT = 1e-9, 1e-13
 #: frequencies of a family differ from its middle by no more than this share
@@ -72,17 +72,13 @@ def full_roots(guesses, operator, solver, tolerance):
 
     Raises ConvergenceError where a residual exceeds ``tolerance`` or no such mode lies near the guess.
     """
-    search, solved = None, []
-    for guess in guesses:
-        mode = search.mode(guess, tolerance) if search and search.room >= _ROOM else None
-        if mode is None or mode.likeness < _ALIKE or _missed(guess, mode):
-            search = None       # its factor and vectors give way to others
-            search = _Search(operator, guess, solver)
-            mode = search.mode(guess, tolerance)
+    modes = _Search(operator, guesses[0], solver).modes(guesses, tolerance)
+    for k, (guess, mode) in enumerate(zip(guesses, modes, strict=True)):
+        if _missed(guess, mode) or mode.likeness < _ALIKE:
+            modes[k] = mode = _Search(operator, guess, solver).modes([guess], tolerance)[0]
         if _missed(guess, mode):
             raise _not_there(guess, mode, tolerance)
-        solved.append(mode)
-    return solved
+    return modes
 
 
 def _missed(guess, mode):
@@ -91,49 +87,56 @@ def _missed(guess, mode):
 
 
 class _Search:
-    """The subspace in which the roots of a family are sought, and the factor with which it grows."""
+    """The subspace in which roots are sought together, and the factor with which it grows."""
 
     def __init__(self, operator, guess, solver):
         self._operator, self._space = operator, Subspace(operator, _MOST)
         self._factor = factorise(operator.symmetric(guess.point, guess.root), solver, single=True)
 
-    @property
-    def room(self):
-        """How many vectors more there is room for."""
-        return self._space.room
-
-    def mode(self, guess, tolerance):
-        """FullRoot from a Guess, as it is after as many steps as are allowed and there is room for."""
-        if not len(self._space) or self._likest(guess)[2] < _ALIKE:
-            self._space.add(self._factor.solve(self._begin(guess)))
-        root, mode = 0.0, None
-        for _ in range(_STEPS):
-            before, (root, weight, likeness) = root, self._likest(guess)
-            vector = self._space.vector(weight)
-            missed, elastic = self._operator.forces(guess.point, root, vector)
-            residual = float(np.linalg.norm(missed) / np.linalg.norm(elastic))
-            settled = residual <= min(tolerance, _EXACT) or (
-                residual <= tolerance and abs(root - before) <= _ROOT * abs(root))
-            mode = FullRoot(root, vector, residual, likeness, settled)
-            if settled or not self._space.room:
+    def modes(self, guesses, tolerance):
+        """[FullRoot] from Guesses, each as it is after as many rounds as are allowed and there is room for."""
+        modes, left = [None] * len(guesses), list(range(len(guesses)))
+        forces = np.stack([self._begin(guess) for guess in guesses], axis=1)
+        for _ in range(_ROUNDS):
+            if self._space.room < len(left):
                 break
-            self._space.add(self._factor.solve(missed))
-        return mode
+            self._space.add(self._factor.solve(forces))
+            found, forces = self._projected([guesses[k] for k in left], [modes[k] for k in left], tolerance)
+            for k, mode in zip(left, found, strict=True):
+                modes[k] = mode
+            forces = forces[:, [not mode.settled for mode in found]]
+            left = [k for k in left if not modes[k].settled]
+            if not left:
+                break
+        return modes
 
     def _begin(self, guess):
         """Forces (n,) of a Guess: those of friction or, where there are none, some at the contacts that move."""
         drawn = self._operator.drawn(guess.point, guess.root, guess.motion)
         return drawn if drawn.any() else self._operator.rows.T @ guess.motion
 
+    def _projected(self, guesses, before, tolerance):
+        """([FullRoot of each Guess], the forces (n, g) that they leave) in the subspace as it is; ``before``: those of
+        the round before, or None."""
+        roots, weights, likeness = map(np.array, zip(*map(self._likest, guesses), strict=True))
+        vectors = self._space.vectors(weights.T)
+        left, elastic = self._operator.forces([guess.point for guess in guesses], roots, vectors)
+        residual = np.linalg.norm(left, axis=0) / np.linalg.norm(elastic, axis=0)
+        moved = [np.inf if old is None else abs(old.root - root) for old, root in zip(before, roots, strict=True)]
+        settled = (residual <= tolerance) & ((moved <= _ROOT * abs(roots)) | (residual <= _EXACT))
+        modes = [FullRoot(complex(root), x, float(r), float(mac), bool(done)) for root, x, r, mac, done in
+                 zip(roots, vectors.T, residual, likeness, settled, strict=True)]
+        return modes, left
+
     def _likest(self, guess):
-        """(root, weight of the vectors, MAC) of the mode near a Guess whose contacts move most as in it."""
+        """(root, weight (m,) of the vectors, MAC) of the mode near a Guess whose contacts move most as in it."""
         root, weight = small_modes(*self._space.matrices(guess.point), abs(guess.root))
         near = np.flatnonzero(abs(root / guess.root - 1) <= _FARTHEST)
         near = near if len(near) else np.array([np.argmin(abs(root - guess.root))])
         moved, norm = self._space.motion(weight[:, near]), np.linalg.norm
         likeness = (abs(guess.motion.conj() @ moved) / (norm(moved, axis=0) * norm(guess.motion))) ** 2
         best = int(np.argmax(likeness))
-        return complex(root[near[best]]), weight[:, near[best]], float(likeness[best])
+        return root[near[best]], weight[:, near[best]], likeness[best]
 
 
 def small_modes(mass, damping, stiffness, pace):

@@ -51,11 +51,14 @@ def point(request, model):
 
 
 def test_forces_are_those_of_the_linearised_matrices(model, point):
-    vector = np.random.default_rng(1).standard_normal(SIZE) * (1 + 0.3j)
-    whole, stiffness = dense(point[0], ROOT)
-    missed, elastic = SharedOperator.of(model).forces(point[1], ROOT, vector)
-    np.testing.assert_allclose(missed, whole @ vector, rtol=1e-12)
-    np.testing.assert_allclose(elastic, stiffness @ vector, rtol=1e-12)
+    """Of two motions at once, at different points and roots."""
+    vectors, other = np.random.default_rng(1).standard_normal((SIZE, 2)) * (1 + 0.3j), model.at_speed(2.0)
+    points, roots = [point[1], SlidingPoint.of(other, 0.1)], np.array([ROOT, -2 * ROOT])
+    missed, elastic = SharedOperator.of(model).forces(points, roots, vectors)
+    for k, (there, friction) in enumerate(((point[0], FRICTION), (other, 0.1))):
+        whole, stiffness = dense(there, roots[k], friction)
+        np.testing.assert_allclose(missed[:, k], whole @ vectors[:, k], rtol=1e-12)
+        np.testing.assert_allclose(elastic[:, k], stiffness @ vectors[:, k], rtol=1e-12)
 
 
 def test_the_symmetric_part_and_what_friction_draws_beside_it_are_all_that_does_not_turn(model, point):
@@ -70,22 +73,23 @@ def test_the_symmetric_part_and_what_friction_draws_beside_it_are_all_that_does_
 
 
 def test_a_subspace_of_all_motions_has_the_matrices_of_the_model(model, point):
+    """Of vectors that are there already, it takes the other parts alone."""
     random = np.random.default_rng(3)
-    space = Subspace(SharedOperator.of(model), SIZE)
-    for _ in range(SIZE):
-        space.add(random.standard_normal(SIZE) + 1j * random.standard_normal(SIZE))
+    space, given = Subspace(SharedOperator.of(model), SIZE), random.standard_normal((SIZE, SIZE)) * (1 + 0.5j)
+    for k, count in ((0, 5), (5, SIZE - 1), (3, 4), (SIZE - 1, SIZE)):
+        space.add(given[:, k:count] + random.standard_normal() * 1j * given[:, :1])
     assert len(space) == SIZE and space.room == 0
-    basis = np.column_stack([space.vector(column) for column in np.eye(SIZE)])
-    np.testing.assert_allclose(basis.conj().T @ basis, np.eye(SIZE), atol=1e-13)
+    basis = space.vectors(np.eye(SIZE))
+    np.testing.assert_allclose(basis.conj().T @ basis, np.eye(SIZE), atol=1e-12)
     for ours, exact in zip(space.matrices(point[1]), point[0].linearised(FRICTION), strict=True):
-        np.testing.assert_allclose(ours, basis.conj().T @ exact @ basis, rtol=1e-10, atol=1e-9)
+        np.testing.assert_allclose(ours, basis.conj().T @ exact @ basis, rtol=1e-10, atol=1e-8)
     contacts = model.contacts
     rows = scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral))
     np.testing.assert_allclose(space.motion(np.ones(SIZE)), rows @ basis.sum(axis=1), rtol=1e-11)
 
 
 def test_without_gyroscopic_and_centrifugal_terms(model, point):
-    vector, there = np.ones(SIZE), point[0]
+    vector, there = np.ones((SIZE, 1), complex), point[0]
     bare = replace(there, gyroscopic=0 * there.gyroscopic, centrifugal=0 * there.centrifugal)
-    missed, _ = SharedOperator.of(model, gyroscopic=False, centrifugal=False).forces(point[1], ROOT, vector)
+    missed, _ = SharedOperator.of(model, gyroscopic=False, centrifugal=False).forces([point[1]], np.array([ROOT]), vector)
     np.testing.assert_allclose(missed, dense(bare, ROOT)[0] @ vector, rtol=1e-12)
