@@ -129,8 +129,8 @@ def _lu(columns, order, threshold):
 class _Pardiso(_Factor):
     def __init__(self, matrix, symmetric, single):
         complex_, self.dtype = np.iscomplexobj(matrix), _kind(matrix, single)
-        stored = _upper_triangle(matrix) if symmetric else matrix
-        self._call = _PardisoCall(stored.astype(self.dtype, copy=False), _MATRIX_TYPE[complex_, symmetric])
+        stored = (_upper_triangle(matrix) if symmetric else matrix).astype(self.dtype, copy=False)
+        self._call = _PardisoCall(stored, _MATRIX_TYPE[complex_, symmetric])
         weakref.finalize(self, self._call, _RELEASE)
         self._call(_ANALYSE)
         peak, permanent, factor = (1024 * int(self._call.parameter[k]) for k in (_PEAK, _PERMANENT, _FACTOR))

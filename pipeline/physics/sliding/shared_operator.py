@@ -41,8 +41,8 @@ class SlidingPoint:
 
 @dataclass(frozen=True)
 class SharedOperator:
-    """``terms``: each a sparse matrix (n, n) with the powers of s and W that it stands with, symmetric, real or complex,
-    but for the gyroscopic one, which is skew; ``rows`` B (3c, n)."""
+    """``terms``: each a sparse matrix (n, n) of complex numbers, the powers of s and W that it stands with, and whether it
+    is real; all are symmetric but the gyroscopic one, which is skew. ``rows`` B (3c, n)."""
 
     terms: tuple
     rows: "scipy.sparse.csr_matrix"
@@ -55,16 +55,20 @@ class SharedOperator:
         terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
         terms += [(model.centrifugal, 0, 2)] if centrifugal else []
         contacts = model.contacts
-        return cls(tuple(term for term in terms if term[0].count_nonzero()),
+        return cls(tuple((matrix.astype(complex), order, power, not np.iscomplexobj(matrix))
+                         for matrix, order, power in terms if matrix.count_nonzero()),
                    scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral), format="csr"))
 
     def symmetric(self, point, root):
         """The symmetric part of T(``root``) (n, n), sparse, at a SlidingPoint: without what friction transfers from
         normal to tangential motion, and without what turns with the speed."""
         contact = (point.by_place + root * point.by_speed).diagonal()
-        parts = [self.rows.T @ (scipy.sparse.diags(contact) @ self.rows)]
-        parts += [root**order * matrix for matrix, order, power in self.terms if not power]
-        return sum(sorted(parts[1:], key=lambda part: part.nnz), parts[0]).tocsr()
+        whole = (self.rows.T @ (scipy.sparse.diags(contact) @ self.rows)).tocsr()
+        whole.sort_indices()        # sums of sorted rows are quick
+        for matrix, order, power, _ in sorted(self.terms, key=lambda term: term[0].nnz):
+            if not power:
+                whole = whole + (root**order * matrix if order else matrix)
+        return whole
 
     def drawn(self, point, root, motion):
         """(n,) N: forces of friction at a ``motion`` (3c,) of the contacts, which ``symmetric`` leaves out."""
@@ -73,12 +77,12 @@ class SharedOperator:
 
     def products(self, vectors):
         """[A x (n, g) of every term and x of ``vectors`` (n, g)]."""
-        return [_product(matrix, vectors) for matrix, *_ in self.terms]
+        return [matrix @ vectors for matrix, *_ in self.terms]
 
     def forces(self, points, roots, vectors):
         """(T(s) x, K x), each (n, g) N, of motions x (n, g) at SlidingPoints and ``roots`` s (g,)."""
         whole, elastic = np.zeros_like(vectors), np.zeros_like(vectors)
-        for (_, order, power), image in zip(self.terms, self.products(vectors), strict=True):
+        for (_, order, power, _), image in zip(self.terms, self.products(vectors), strict=True):
             image = image * [point.speed**power for point in points]
             elastic += 0.0 if order else image
             whole += roots**order * image
@@ -130,7 +134,7 @@ class Subspace:
     def matrices(self, point):
         """(M, C, K), each (m, m), at a SlidingPoint, projected on the vectors."""
         m, moved, parts = self._count, self._moved[:, :self._count], [0.0, 0.0, 0.0]
-        for (_, order, power), small in zip(self._operator.terms, self._small, strict=True):
+        for (_, order, power, _), small in zip(self._operator.terms, self._small, strict=True):
             parts[order] = parts[order] + point.speed**power * small[:m, :m]
         by_place, by_speed = (moved.conj().T @ (each @ moved) for each in (point.by_place, point.by_speed))
         return parts[2], parts[1] + by_speed, parts[0] + by_place
@@ -144,16 +148,9 @@ class Subspace:
         return self._vectors[:, :self._count] @ weight
 
 
-def _product(matrix, vectors):
-    """``matrix`` @ ``vectors`` (n, g); a real one is not copied into complex numbers."""
-    if np.iscomplexobj(matrix):
-        return matrix @ vectors
-    return matrix @ np.ascontiguousarray(vectors.real) + 1j * (matrix @ np.ascontiguousarray(vectors.imag))
-
-
 def _adjoint(term, vectors, image):
     """A^H x (n, g) of a term of A and x, from the ``image`` A x where A is real."""
-    matrix, *powers = term
-    if np.iscomplexobj(matrix):
+    matrix, *powers, real = term
+    if not real:
         return (matrix @ vectors.conj()).conj()
     return -image if tuple(powers) == _GYROSCOPIC else image
