@@ -145,10 +145,12 @@ class _Pardiso(_Factor):
 
 
 def _upper_triangle(matrix):
-    """Upper triangle in CSR with every diagonal entry stored, zero or not, as PARDISO wants it."""
+    """Upper triangle in CSR, of rows none of which is empty, with every diagonal entry stored, zero or not, as PARDISO
+    wants it."""
     rows = np.repeat(np.arange(matrix.shape[0], dtype=matrix.indices.dtype), np.diff(matrix.indptr))
     kept = matrix.indices >= rows
-    indptr = np.concatenate(([0], np.cumsum(kept)))[matrix.indptr]
+    counts = np.add.reduceat(kept, matrix.indptr[:-1], dtype=matrix.indptr.dtype)
+    indptr = np.concatenate(([0], np.cumsum(counts)))
     diagonal = np.zeros(matrix.shape[0], bool)
     diagonal[rows[matrix.indices == rows]] = True
     upper = scipy.sparse.csr_matrix((matrix.data[kept], matrix.indices[kept], indptr), matrix.shape)

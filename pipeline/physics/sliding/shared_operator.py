@@ -55,7 +55,7 @@ class SharedOperator:
         terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
         terms += [(model.centrifugal, 0, 2)] if centrifugal else []
         contacts = model.contacts
-        return cls(tuple((matrix.astype(complex), order, power, not np.iscomplexobj(matrix))
+        return cls(tuple((matrix.astype(complex, copy=False), order, power, not np.iscomplexobj(matrix))
                          for matrix, order, power in terms if matrix.count_nonzero()),
                    scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral), format="csr"))
 
