@@ -80,8 +80,10 @@ def path_fields(index, paths, friction, model, diameters):
 
 
 def on_surface(model, motions):
-    """Motions (g, v, 3) of the surface of a product ReducedModel, in single precision; ``motions``: each (n,) complex, or
-    longer by coordinates that effects add."""
+    """Motions (g, v, 3) of the surface of a product ReducedModel, in single precision.
+
+    ``motions``: each (n,) complex, or longer by coordinates that effects add.
+    """
     vertices, axes, size = model.recovery.shape
     given = np.array([motion[:size] for motion in motions], complex).reshape(-1, size)
     parts = np.concatenate((given.real, given.imag)).astype(model.recovery.dtype)   # one pass of the large matrix

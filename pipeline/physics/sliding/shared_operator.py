@@ -41,8 +41,8 @@ class SlidingPoint:
 
 @dataclass(frozen=True)
 class SharedOperator:
-    """``terms``: each a sparse matrix (n, n) of complex numbers, the powers of s and W that it stands with, and whether it
-    is real; all are symmetric but the gyroscopic one, which is skew. ``rows`` B (3c, n)."""
+    """``terms``: each a sparse matrix (n, n) of complex numbers, the powers of s and W that it stands with, and whether
+    it is real; all are symmetric but the gyroscopic one, which is skew. ``rows`` B (3c, n)."""
 
     terms: tuple
     rows: "scipy.sparse.csr_matrix"

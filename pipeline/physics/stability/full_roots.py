@@ -57,7 +57,7 @@ def sliding_as(full, model):
 
 
 def families(roots, state):
-    """Indices of ``roots`` (r,) 1/s of one ``state`` (r,) and nearly one frequency: arrays, from the middle of each out."""
+    """Indices of ``roots`` (r,) 1/s of one ``state`` (r,) and nearly one frequency: arrays, from their middle out."""
     order, groups = np.lexsort((roots.imag, state)), []
     while len(order):
         frequency, first = roots.imag[order], order[0]

@@ -91,5 +91,6 @@ def test_a_subspace_of_all_motions_has_the_matrices_of_the_model(model, point):
 def test_without_gyroscopic_and_centrifugal_terms(model, point):
     vector, there = np.ones((SIZE, 1), complex), point[0]
     bare = replace(there, gyroscopic=0 * there.gyroscopic, centrifugal=0 * there.centrifugal)
-    missed, _ = SharedOperator.of(model, gyroscopic=False, centrifugal=False).forces([point[1]], np.array([ROOT]), vector)
+    operator = SharedOperator.of(model, gyroscopic=False, centrifugal=False)
+    missed, _ = operator.forces([point[1]], np.array([ROOT]), vector)
     np.testing.assert_allclose(missed, dense(bare, ROOT)[0] @ vector, rtol=1e-12)
