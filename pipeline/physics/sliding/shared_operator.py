@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
+from pipeline.physics.sliding.model import spread
+
 #: powers of s and W that the gyroscopic matrix stands with
 _GYROSCOPIC = (1, 1)
 #: what is left of a vector of unit length that counts as rounding
@@ -50,8 +52,9 @@ class SharedOperator:
     @classmethod
     def of(cls, model, gyroscopic=True, centrifugal=True):
         """Of a sparse SlidingModel, at any speed and sliding state."""
-        mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
-        terms = [(mass, 2, 0), (damping, 1, 0), (stiffness, 0, 0)]
+        joints = [(spread(model.joints.rows, weight, model.joints.rows), order, 0)
+                  for order, weight in enumerate((model.joints.stiffness, model.joints.damping))]
+        terms = [(model.mass, 2, 0), (model.damping, 1, 0), (model.stiffness, 0, 0), *joints]
         terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
         terms += [(model.centrifugal, 0, 2)] if centrifugal else []
         contacts = model.contacts
