@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
-from pipeline.case_models.friction_paths import OverFriction, over_friction
+from pipeline.case_models.friction_paths import over_friction
 from pipeline.case_models.full_matrices import has_full_matrices
 from pipeline.case_models.operating_modes import balances, growing, in_full, path_fields_of, unstable_fields
 from pipeline.case_models.steady_sliding import (
@@ -32,9 +32,9 @@ from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
-    quadratic_modes,
     quadratic_roots,
     upper_half,
+    vectors_of,
 )
 from pipeline.physics.sliding.equilibrium import ClosureResponse
 from pipeline.physics.sliding.model import SlidingModel, at_state
@@ -137,16 +137,15 @@ class _Outcome:
 
     speed: float
     sliding: Steady
+    basis: FrictionBasis
     root: np.ndarray
     near: np.ndarray        # (g,) roots that grow or nearly do
     motion: np.ndarray
-    corrections: int
     terms: tuple            # of these: {term: part of the growth rate}
     contacts: np.ndarray    # (g, c) parts of the contacts in it
     shares: np.ndarray      # (g, b) of the bodies in their kinetic energy
     reduced: np.ndarray     # (g,) the same roots in the reduced model
     residual: np.ndarray    # (g,) on the full finite-element matrices, -1 without these
-    over_friction: OverFriction | None      # of the reduced model
 
     @property
     def mean_friction(self):
@@ -181,8 +180,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = sliding_friction(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = [Losses.of(at_state(model, k)) for k in range(len(models))]
-    tasks = list(zip(points, (each for each in losses for _ in settings.speeds), strict=True))
+    losses = [Losses.of(at_state(model, k)) for k in range(len(models)) for _ in settings.speeds]
+    tasks = [(*point, lost) for point, lost in zip(points, losses, strict=True)]
     outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
     if has_full_matrices(structure, models[0][0], settings, context):
         outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, model.contact_body,
@@ -199,8 +198,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
         operating_root=[_lowest(o.root, branches) for o in outcomes],
         **unstable_fields(outcomes, model, models[0][0].bench.model.body_name),
-        **path_fields_of(outcomes, model, settings, context),
-        corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
+        **path_fields_of(partial(_over, settings), tasks, outcomes, model, settings, context),
+        corrections=max(each.basis.corrections for each in [*states, *outcomes]))
 
 
 def _told(terms, context):
@@ -256,24 +255,36 @@ def _roots_over_friction(settings, task):
 
 def _operate(settings, law, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
-    (case, input_force), losses = task
+    case, input_force, losses = task
     sliding = case.seeking.slide(case.response(settings.centrifugal), input_force, *law, settings)
     model = sliding.about(case.bench.model)
     basis = _basis(model, settings)
     about = model if is_hard(model) else model.projected(basis.shape)
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
-    modes = quadratic_modes(*matrices, beside=beside)
+    root = quadratic_roots(*matrices, beside)
+    near = np.flatnonzero(nearly(root, settings) & (root.imag >= 0))
+    shape = basis.shape @ vectors_of(*matrices, root[near], root, beside)
+    hysteretic = _hysteretic(case, model, losses, settings)
+    root[near], shape = in_whole_model(model, sliding, root[near], shape, settings, hysteretic)
+    still_near = nearly(root[near], settings)
+    near, shape = root[near[still_near]], shape[:, still_near]
     losses = losses.enlarged(model.size)
-    hysteretic = losses.change(case.base.model) if settings.hysteretic else None
-    root, shape = in_whole_model(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
-    near = nearly(root, settings) & (root.imag >= 0)
-    hysteretic = None if is_hard(model) else hysteretic
-    viscous = losses.viscous_motion(case.base.model, shape[:, near]) if hysteretic is None and near.any() else None
-    over = over_friction(partial(_linearised, settings=settings, slopes=settings.friction_slopes), model, sliding,
-                         basis, shape[:, near], hysteretic) if settings.followed else None
-    return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[near], shape[:, near],
-                    basis.corrections, *balances(model, sliding, root[near], shape[:, near], losses, viscous,
-                                                 settings), root[near], np.full(near.sum(), -1.0), over)
+    viscous = losses.viscous_motion(case.base.model, shape) if hysteretic is None and len(near) else None
+    return _Outcome(model.speed, sliding, basis, root[upper_half(root, len(matrices[0]))], near, shape,
+                    *balances(model, sliding, near, shape, losses, viscous, settings), near, np.full(len(near), -1.0))
+
+
+def _over(settings, task, outcome):
+    """OverFriction of an operating point with all modes of its ``outcome``."""
+    case, _, losses = task
+    model = outcome.sliding.about(case.bench.model)
+    return over_friction(partial(_linearised, settings=settings, slopes=settings.friction_slopes), model,
+                         outcome.sliding, outcome.basis, outcome.motion, _hysteretic(case, model, losses, settings))
+
+
+def _hysteretic(case, model, losses, settings):
+    """What makes loss factors hysteretic in a SlidingModel, see ``Losses.change``; None where they are not to be."""
+    return losses.enlarged(model.size).change(case.base.model) if settings.hysteretic and not is_hard(model) else None
 
 
 def _linearised(model, sliding, basis, settings, slopes=True):

@@ -28,13 +28,11 @@ class OverFriction:
 
 
 def over_friction(linearised, model, sliding, basis, shapes, hysteretic):
-    """OverFriction of an operating point, with the growing modes ``shapes`` (n, g) exactly; None where none grows.
+    """OverFriction of an operating point, with the growing modes ``shapes`` (n, g) exactly.
 
     ``linearised`` (model, Steady, basis) gives the matrices; ``model`` is a SlidingModel about ``sliding``, a Steady,
     ``basis`` a FrictionBasis; ``hysteretic``: (damping, stiffness), each (n, n), that its loss factors add, or None.
     """
-    if not shapes.size:
-        return None
     if is_hard(model):
         system = partial(_with_share, linearised, model, sliding, basis)
         return OverFriction(system, basis.shape, basis.shape.T @ model.mass)
@@ -50,9 +48,8 @@ def _with_share(linearised, model, sliding, basis, share):
     return linearised(model, sliding.with_share(share), basis)
 
 
-def followed(neutral, task):
-    """FrictionPath, its shapes in all coordinates, of a ``task`` (OverFriction, root, motion (n,))."""
-    over, root, motion = task
+def followed(neutral, over, root, motion):
+    """FrictionPath, its shapes in all coordinates, of a ``root`` 1/s and its ``motion`` (n,) in an OverFriction."""
     path = friction_path(over.system, root, over.inverse @ motion, neutral)
     return replace(path, start=over.basis @ path.start)
 
@@ -70,8 +67,7 @@ def path_fields(index, paths, friction, model, diameters):
     body, lines = np.full(len(starts), -1), np.full(len(starts), -1)
     body[moves] = [np.argmax(body_shares(model, shape)) for shape in starts[moves]]
     if moves.any():
-        surface = np.einsum("vxn,gn->gvx", model.recovery, starts[moves].astype(np.complex64))
-        lines[moves] = diameters(surface)
+        lines[moves] = diameters(on_surface(model, starts[moves]))
     roots, others = ([getattr(p, name) for p in paths] for name in ("root", "meeting"))
     pair = [(root[0], other[0]) for root, other in zip(roots, others, strict=True)]
     return {"followed_mode": index, "followed_critical": friction * [p.critical for p in paths],
@@ -81,6 +77,18 @@ def path_fields(index, paths, friction, model, diameters):
             "path_friction": np.concatenate([[]] + [f * p.share for f, p in zip(friction, paths, strict=True)]),
             "path_root": np.concatenate([np.empty(0, complex), *roots]),
             "path_meeting": np.concatenate([np.empty(0, complex), *others])}
+
+
+def on_surface(model, motions):
+    """Motions (g, v, 3) of the surface of a product ReducedModel, in single precision.
+
+    ``motions``: each (n,) complex, or longer by coordinates that effects add.
+    """
+    vertices, axes, size = model.recovery.shape
+    given = np.array([motion[:size] for motion in motions], complex).reshape(-1, size)
+    parts = np.concatenate((given.real, given.imag)).astype(model.recovery.dtype)   # one pass of the large matrix
+    moved = (model.recovery.reshape(-1, size) @ parts.T).T.reshape(2, len(given), vertices, axes)
+    return (moved[0] + 1j * moved[1]).astype(np.complex64)
 
 
 def _nearest(path):

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import scipy
 
 from pipeline.contract import ConvergenceError
+from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.full_roots import Guess, families, full_roots, sliding_as
 
@@ -108,10 +108,10 @@ def _refuse_same(modes, solved):
 
 def _family(describe, settings, solver, task):
     """A FullMode for each operating point of a family of roots."""
-    guesses = (Guess(root, motion, scipy.sparse.vstack(_rows(model), format="csr"), model.linearised(
-        sliding.acting(settings.friction_slopes), settings.friction_damping, settings.gyroscopic, settings.centrifugal))
-        for model, sliding, root, motion in task)
-    solved, found = full_roots(guesses, solver, settings.residual_tolerance), []
+    guesses = [Guess(root, motion, SlidingPoint.of(model, sliding.acting(settings.friction_slopes),
+                                                   settings.friction_damping)) for model, sliding, root, motion in task]
+    operator = SharedOperator.of(task[0][0], settings.gyroscopic, settings.centrifugal)
+    solved, found = full_roots(guesses, operator, solver, settings.residual_tolerance), []
     for (model, sliding, *_), mode in zip(task, solved, strict=True):
         (terms,), (contacts,), (shares,) = describe(model, sliding, np.array([mode.root]), mode.vector[:, None])
         found.append(FullMode(mode.root, mode.residual, terms, contacts, shares))

@@ -2,7 +2,7 @@
 
 An outcome is one operating point: ``sliding``, its Steady, and of the modes that grow or nearly do ``near`` (g,) 1/s,
 ``motion`` (n, g) and ``reduced`` (g,) in the reduced model, ``residual`` (g,), ``terms``, ``contacts`` (g, c) and
-``shares`` (g, b), ``over_friction``; ``root`` (r,) are all roots.
+``shares`` (g, b); ``root`` (r,) are all roots.
 """
 
 from dataclasses import replace
@@ -11,7 +11,7 @@ from itertools import compress
 
 import numpy as np
 
-from pipeline.case_models.friction_paths import followed, path_fields
+from pipeline.case_models.friction_paths import followed, on_surface, path_fields
 from pipeline.case_models.full_matrices import Mode, full_modes
 from pipeline.physics.modal.disc_modes import by_plane, describe
 from pipeline.physics.stability.constrained_modes import is_hard
@@ -90,10 +90,10 @@ def unstable_fields(outcomes, model, bodies):
 
     ``model``: product ReducedModel; ``bodies``: names of all that move, with what effects add to it.
     """
-    unstable, recovery, names = _strongest_first(outcomes), model.recovery, list(bodies)
+    unstable, names = _strongest_first(outcomes), list(bodies)
     count = len(unstable)
-    shapes = [_normalised(recovery @ o.motion[:recovery.shape[2], k].astype(np.complex64)) for _, o, k in unstable]
-    shapes = np.array(shapes).reshape(count, *recovery.shape[:2])
+    shapes = on_surface(model, [o.motion[:, k] for _, o, k in unstable])
+    shapes = np.array([_normalised(shape) for shape in shapes]).reshape(shapes.shape)
     growth = [o.terms[k] for _, o, k in unstable]
     terms = list(growth[0]) if unstable else []
     roots, reduced, residual = ([getattr(o, name)[k] for _, o, k in unstable]
@@ -108,16 +108,32 @@ def unstable_fields(outcomes, model, bodies):
             "unstable_first": first_of_each(np.array(roots, complex))}
 
 
-def path_fields_of(outcomes, model, settings, context):
+def path_fields_of(over, points, outcomes, model, settings, context):
     """Fields of ComplexModes of the paths over friction, in the reduced model: of the strongest unstable modes, each
-    frequency once."""
+    frequency once.
+
+    ``over(point, outcome)``: OverFriction of one of the ``points``, one for each outcome.
+    """
     unstable = _strongest_first(outcomes)
     first = first_of_each(np.array([o.near[k] for _, o, k in unstable], complex))
     chosen = np.unique(first)[:settings.followed]
-    tasks = [(o.over_friction, o.reduced[k], o.motion[:, k]) for _, o, k in (unstable[c] for c in chosen)]
+    modes, tasks = {}, []
+    for c in chosen:
+        modes.setdefault(unstable[c][0], []).append(c)
+    for number, members in modes.items():
+        tasks.append((points[number], outcomes[number], [unstable[c][2] for c in members]))
+    found = context.map(partial(_paths, over, settings.neutral), tasks, "paths over friction")
+    path_of = {c: path for members, paths in zip(modes.values(), found, strict=True)
+               for c, path in zip(members, paths, strict=True)}
     friction = np.array([unstable[c][1].mean_friction for c in chosen])
-    paths = context.map(partial(followed, settings.neutral), tasks, "paths over friction")
-    return path_fields(chosen, paths, friction, model, partial(diameters, model))
+    return path_fields(chosen, [path_of[c] for c in chosen], friction, model, partial(diameters, model))
+
+
+def _paths(over, neutral, task):
+    """A FrictionPath of each of the modes of an operating point that are asked for, by their numbers."""
+    point, outcome, numbers = task
+    whole = over(point, outcome)
+    return [followed(neutral, whole, outcome.reduced[k], outcome.motion[:, k]) for k in numbers]
 
 
 def diameters(model, shapes):

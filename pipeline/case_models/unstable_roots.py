@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from pipeline.physics.modal.quadratic_eigenproblem import polished
+from pipeline.physics.modal.quadratic_eigenproblem import DenseFactors, polished
 from pipeline.physics.stability.constrained_modes import is_hard
 
 #: growth rates above this negative share of the frequency are nearly unstable
 _NEARLY = 5e-4
+#: matrices are factorised beside a root, where they are regular in single precision
+_BESIDE = 1 + 1e-5
 
 
 def nearly(roots, settings):
@@ -15,22 +17,20 @@ def nearly(roots, settings):
 
 
 def in_whole_model(model, sliding, roots, shapes, settings, hysteretic=None):
-    """Roots and shapes (n, g) of a SlidingModel on its basis, those that grow or nearly do as in the whole model.
+    """Roots (g,) and shapes (n, g) of a SlidingModel, those that oscillate as in the whole model instead of on a basis.
 
     ``sliding``: its Steady; ``settings``: the section ``complex_modes``; ``hysteretic``: what to add to its damping and
     its stiffness (imaginary), or None. Hard contacts leave the roots as they are.
     """
-    near = nearly(roots, settings) & (roots.imag > 0)
-    if is_hard(model) or not near.any():
+    oscillating = np.flatnonzero(roots.imag > 0)
+    if is_hard(model) or not len(oscillating):
         return roots, shapes
     friction, beside = sliding.acting(settings.friction_slopes), sliding.beside(model, settings.friction_slopes)
     matrices = model.linearised(friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
     if hysteretic is not None:
         matrices = matrices[0], matrices[1] + hysteretic[0], matrices[2] + hysteretic[1]
     roots, shapes = roots.copy(), shapes.copy()
-    for k in np.flatnonzero(near):
-        conjugate = np.argmin(abs(roots - roots[k].conj()))
-        roots[k], better = polished(*matrices, roots[k], shapes[:, k], beside)
+    for k in oscillating:
+        roots[k], better = polished(*matrices, roots[k] * _BESIDE, shapes[:, k], beside, DenseFactors(np.complex64))
         shapes[:, k] = better / np.sqrt(abs(better.conj() @ matrices[0] @ better))
-        roots[conjugate], shapes[:, conjugate] = roots[k].conj(), shapes[:, k].conj()
     return roots, shapes

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from pipeline.case_models.friction_paths import followed, over_friction, path_fields
+from pipeline.case_models.friction_paths import followed, on_surface, over_friction, path_fields
 from pipeline.case_models.steady_sliding import posed
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.modal.nearest_modes import modes_near
@@ -61,7 +61,7 @@ def test_along_the_path_roots_are_those_of_the_whole_model_with_less_friction(po
     model, sliding, more, root, motion = point
     basis = friction_basis(model, 1e7, friction_damping=False, smallest=np.inf)      # all of them
     over = over_friction(LINEARISED, model, sliding, basis, motion[:, None], more)
-    path = followed(1e-6, (over, root, motion))
+    path = followed(1e-6, over, root, motion)
     assert path.root[-1] == pytest.approx(root, rel=1e-8) and path.start.shape == (model.size, 2)
     assert 0 < path.critical < 1 and path.alike > 0.5
     for k in range(0, len(path.share), 7):
@@ -70,9 +70,13 @@ def test_along_the_path_roots_are_those_of_the_whole_model_with_less_friction(po
         assert nearest[0] == pytest.approx(path.root[k], rel=1e-8)
 
 
-def test_nothing_grows_nothing_is_kept(point):
-    model, sliding, *_ = point
-    assert over_friction(LINEARISED, model, sliding, None, np.empty((model.size, 0)), None) is None
+def test_motions_on_the_surface_are_those_of_the_recovery():
+    product = small_brake()
+    size, random = product.recovery.shape[2], np.random.default_rng(0)
+    motions = random.standard_normal((2, size + 1)) + 1j * random.standard_normal((2, size + 1))
+    expected = np.einsum("vxn,gn->gvx", product.recovery, motions[:, :size])
+    np.testing.assert_allclose(on_surface(product, motions), expected, rtol=1e-5, atol=1e-6 * abs(expected).max())
+    assert on_surface(product, []).shape == (0, *product.recovery.shape[:2])
 
 
 def test_paths_become_fields():

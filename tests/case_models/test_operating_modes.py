@@ -63,7 +63,7 @@ def test_fields_stand_strongest_first_whatever_the_operating_point():
     assert made["unstable_reduced"][0] == 10 + 1001j and made["unstable_residual"] == [1e-7, 0.0, 0.0]
     none = unstable_fields([outcome()], model, model.body_name)
     assert none["growth_term"] == [] and none["unstable_growth"].shape == (0, 0) and len(none["unstable_shape"]) == 0
-    assert all(len(v) == 0 for v in path_fields_of([outcome()], model, SETTINGS, Context()).values())
+    assert all(len(v) == 0 for v in path_fields_of(None, [None], [outcome()], model, SETTINGS, Context()).values())
 
 
 @pytest.mark.exact

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.case_models.sensitivity.matrices import matrices
 from pipeline.contract import ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import polished
+from pipeline.physics.modal.quadratic_eigenproblem import DenseFactors, polished
 
 #: values that a designer may change -> largest decrease and increase, in shares of the value; those of loss factors in
 #: units of the factor
@@ -52,7 +52,8 @@ def stabilised(case, root, shape, value, slope, friction_map, points):
     step, expected = first, root + first * slope
     for _ in range(_TRIALS):
         try:
-            now, shape = polished(*matrices(value.changed(case, step), friction_map, points), expected, shape)
+            now, shape = polished(*matrices(value.changed(case, step), friction_map, points), expected, shape,
+                                  factors=DenseFactors(np.complex64))
         except ConvergenceError:
             break
         if abs(now.imag / expected.imag - 1) > _SAME:

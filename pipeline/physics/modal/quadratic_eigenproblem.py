@@ -18,6 +18,9 @@ from pipeline.physics.numerics.dense_factor import DenseFactor, product
 _FACTORISATIONS, _POLISHINGS, _POLISHED = 4, 8, 1e-11
 #: part of the largest root below which two frequencies differ by rounding alone
 _ROUNDING = 1e-10
+#: vectors of known roots: factorised so far beside a root, inverse iterations, distance of the next root as a share of
+#: it, and the part of all coordinates from whose number on vectors of all roots cost less
+_BESIDE, _INVERSE, _APART, _FEW = 1 + 1e-8, 3, 1e-5, 10
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,28 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     order, n = by_frequency(roots), len(mass)
     right = _physical(vectors[-1][:n, order], factor)
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
+
+
+def vectors_of(mass, damping, stiffness, roots, every_root, beside=None):
+    """Right vectors (n, g) of known ``roots`` (g,) 1/s among ``every_root`` (r,); arguments and errors as of
+    ``quadratic_modes``, which a root that another one nearly equals asks for. Others are found by inverse iteration."""
+    if len(roots) > len(mass) // _FEW or _crowded(roots, every_root):
+        modes = quadratic_modes(mass, damping, stiffness, beside=beside)
+        return modes.right[:, scipy.optimize.linear_sum_assignment(abs(roots[:, None] - modes.value))[1]]
+    start, vectors = np.random.default_rng(0).standard_normal(len(mass)), np.empty((len(mass), len(roots)), complex)
+    for k, root in enumerate(roots):
+        factor, x = DenseFactor(_operator(mass, damping, stiffness, root * _BESIDE, beside)[0]), start
+        for _ in range(_INVERSE):
+            x = factor.solve(_operator(mass, damping, stiffness, root, beside, x)[1])
+            x = x / np.linalg.norm(x)
+        vectors[:, k] = x / np.sqrt((x.conj() @ (mass @ x)).real)
+    return vectors
+
+
+def _crowded(roots, every_root):
+    """Whether one of the ``roots`` has another of all next to it, or is none that inverse iteration finds."""
+    distance = np.sort(abs(roots[:, None] - every_root), axis=1)
+    return bool((distance[:, 1:2] <= _APART * abs(roots)[:, None]).any() or not roots.all())
 
 
 def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, accuracy=_POLISHED):

@@ -23,8 +23,8 @@ _PEAK, _PERMANENT, _FACTOR = 14, 15, 16
 _ADJOINT = 11       # index of the parameter that solves with A^H
 #: a factor whose solution misses a seeded right-hand side by more is that of a singular matrix
 _SINGULAR = 1e-4
-#: a factor without row exchanges, or with few, is kept while it is as good as this
-_ACCURATE = 1e-8
+#: a factor without row exchanges, or with few, is kept while it is as good as this, in double or single precision
+_ACCURATE, _ACCURATE_SINGLE = 1e-8, 1e-2
 #: orders of columns and thresholds of row exchanges that SuperLU tries, by symmetry
 _PATTERN = "MMD_AT_PLUS_A"
 _ORDERS = {True: ((_PATTERN, 0.0), (_PATTERN, 1.0)), False: ((_PATTERN, 0.01), ("COLAMD", 1.0))}
@@ -35,7 +35,7 @@ def available():
     return (*(("pypardiso",) if find_spec("pypardiso") and (_runtime() or _library()) else ()), "superlu")
 
 
-def factorise(matrix, solver, symmetric=True):
+def factorise(matrix, solver, symmetric=True, single=False):
     """Factorise a sparse matrix once, to solve with it often.
 
     Parameters
@@ -43,12 +43,14 @@ def factorise(matrix, solver, symmetric=True):
     matrix : (n, n) sparse, real or complex
     solver : "pypardiso" or "superlu"
     symmetric : True for A = A^T (indefinite allowed; complex means symmetric, not Hermitian)
+    single : True for a factor in single precision, of half the size, whose solutions an iteration improves: they may
+        be those of a matrix that differs by rounding, which next to a singular one is far off
 
     Returns
     -------
     Factor with ``solve(rhs)`` for (n,) and (n, m) right-hand sides, ``solve(rhs, adjoint=True)`` for those of
-    A^H x = rhs and, for real symmetric matrices, ``negative``, the number of negative eigenvalues (Sylvester's law of
-    inertia).
+    A^H x = rhs and, for real symmetric matrices in double precision, ``negative``, the number of negative eigenvalues
+    (Sylvester's law of inertia).
 
     Raises ConvergenceError for a singular matrix, ConfigError for an unknown solver and, with PARDISO, where the factor
     would not fit into the memory that is available, before it is computed.
@@ -61,9 +63,9 @@ def factorise(matrix, solver, symmetric=True):
         raise ConvergenceError("factorisation", "finite matrix entries", "NaN or infinity")
     if (np.diff(matrix.indptr) == 0).any():
         raise _singular(matrix, "an empty row")
-    factor = _BACKENDS[solver](matrix, symmetric)
+    factor = _BACKENDS[solver](matrix, symmetric, single)
     miss = _miss(matrix, factor)
-    if not miss < _SINGULAR:
+    if not (np.isfinite(miss) if single else miss < _SINGULAR):
         raise _singular(matrix, f"a relative residual of {miss:.1e}")
     return factor
 
@@ -76,22 +78,29 @@ class _Factor:
     def solve(self, rhs, adjoint=False):
         """x of A x = rhs, or A^H x = rhs, same shape as ``rhs``; complex right-hand sides are welcome."""
         rhs = np.asarray(rhs)
-        if np.iscomplexobj(rhs) and self.dtype == np.float64:
-            return self.solve(rhs.real, adjoint) + 1j * self.solve(rhs.imag, adjoint)
+        if np.iscomplexobj(rhs) and self.dtype.kind == "f":
+            both = self.solve(np.stack((rhs.real, rhs.imag), axis=-1).reshape(len(rhs), -1), adjoint)
+            return (both[:, ::2] + 1j * both[:, 1::2]).reshape(rhs.shape)
         columns = np.asfortranarray(rhs.reshape(len(rhs), -1), dtype=self.dtype)
         return self._solve(columns, adjoint).reshape(rhs.shape)
+
+
+def _kind(matrix, single):
+    """Type of the numbers of a factor."""
+    double, half = (complex, np.complex64) if np.iscomplexobj(matrix) else (float, np.float32)
+    return np.dtype(half if single else double)
 
 
 class _SuperLU(_Factor):
     """Symmetric matrices are first tried without row exchanges, which keeps the inertia readable; others with few of
     them in the order of a symmetric pattern, which those of bodies in contact nearly have."""
 
-    def __init__(self, matrix, symmetric):
-        self.dtype = np.result_type(matrix.dtype, np.float64)
+    def __init__(self, matrix, symmetric, single):
+        self.dtype = _kind(matrix, single)
         columns = matrix.astype(self.dtype).tocsc()
         for order, threshold in _ORDERS[symmetric]:
             self._factor = _lu(columns, order, threshold)
-            if _miss(matrix, self) < _ACCURATE:
+            if _miss(matrix, self) < (_ACCURATE_SINGLE if single else _ACCURATE):
                 break
         if symmetric and self.dtype == np.float64:
             self.negative = self._inertia()
@@ -118,17 +127,16 @@ def _lu(columns, order, threshold):
 
 
 class _Pardiso(_Factor):
-    def __init__(self, matrix, symmetric):
-        complex_ = np.iscomplexobj(matrix)
-        self.dtype = np.dtype(complex if complex_ else float)
-        stored = _upper_triangle(matrix) if symmetric else matrix
-        self._call = _PardisoCall(stored.astype(self.dtype, copy=False), _MATRIX_TYPE[complex_, symmetric])
+    def __init__(self, matrix, symmetric, single):
+        complex_, self.dtype = np.iscomplexobj(matrix), _kind(matrix, single)
+        stored = (_upper_triangle(matrix) if symmetric else matrix).astype(self.dtype, copy=False)
+        self._call = _PardisoCall(stored, _MATRIX_TYPE[complex_, symmetric])
         weakref.finalize(self, self._call, _RELEASE)
         self._call(_ANALYSE)
         peak, permanent, factor = (1024 * int(self._call.parameter[k]) for k in (_PEAK, _PERMANENT, _FACTOR))
         refuse_beyond_memory(max(peak, permanent + factor), f"a factor of {matrix.shape[0]} degrees of freedom")
         self._call(_FACTORISE)
-        if symmetric and not complex_:
+        if symmetric and self.dtype == np.float64:
             self.negative = int(self._call.parameter[22])
 
     def _solve(self, columns, adjoint):
@@ -137,10 +145,12 @@ class _Pardiso(_Factor):
 
 
 def _upper_triangle(matrix):
-    """Upper triangle in CSR with every diagonal entry stored, zero or not, as PARDISO wants it."""
+    """Upper triangle in CSR, of rows none of which is empty, with every diagonal entry stored, zero or not, as PARDISO
+    wants it."""
     rows = np.repeat(np.arange(matrix.shape[0], dtype=matrix.indices.dtype), np.diff(matrix.indptr))
     kept = matrix.indices >= rows
-    indptr = np.concatenate(([0], np.cumsum(kept)))[matrix.indptr]
+    counts = np.add.reduceat(kept, matrix.indptr[:-1], dtype=matrix.indptr.dtype)
+    indptr = np.concatenate(([0], np.cumsum(counts)))
     diagonal = np.zeros(matrix.shape[0], bool)
     diagonal[rows[matrix.indices == rows]] = True
     upper = scipy.sparse.csr_matrix((matrix.data[kept], matrix.indices[kept], indptr), matrix.shape)
@@ -161,6 +171,7 @@ class _PardisoCall:
         self.columns = matrix.indices.astype(np.int32) + 1
         self.parameter = np.zeros(64, np.int32)
         self.parameter[[0, 1, 9, 20]] = 1, 2, 8, 1     # own values, nested dissection, pivot 1e-8, 2 x 2 pivots
+        self.parameter[27] = matrix.dtype in (np.float32, np.complex64)
         if kind in (11, 13):
             self.parameter[[9, 10, 12]] = 13, 1, 1      # pivot 1e-13, scaling, matching
         # parameter[7] = 0: no iterative refinement unless pivots had to be perturbed

@@ -1,57 +1,53 @@
 """Roots of the finite-element matrices without reduction, near those of a reduced model, and their residuals.
 
 A reduced model is a projection, so that its roots are off by what its basis leaves out of the right vectors times what
-it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, sparse and about the same sliding state,
-
-    x <- T(s0)^-1 T'(s0) x,    then    y^H T(s) x = 0,    x <- x - T(s0)^-1 T(s) x,
-
-where the first steps answer the contact motion of the reduced mode and the others are residual inverse iteration (see
-``polished``). The factor of T(s0) at one operating point serves its neighbours at other speeds as well, as long as the
-contacts then move as in the reduced mode.
+it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, sparse and about the same sliding state, a
+root is sought in a subspace of motions. It begins with the answer to the friction forces of the reduced mode, and grows
+by S^-1 T(s) x, x being the mode of T projected on it (nonlinear Arnoldi iteration: H. Voss, BIT Numer. Math. 44 (2004)
+387). S is the symmetric part of T(s0), whose factor, in single precision, takes a fifth of the time of one of T(s0): it
+says where to go on, not what the root is. Operating points and modes of nearly one frequency share S and the subspace.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import polished
-from pipeline.physics.numerics.dense_factor import product
 from pipeline.physics.numerics.sparse_solver import factorise
+from pipeline.physics.sliding.shared_operator import SlidingPoint, Subspace
 
-#: inverse iterations from the contact motion of the reduced mode
-_STARTS = 3
-#: rounds of residual inverse iteration until the residual meets its tolerance
-_ROUNDS = 5
-#: frequencies of one family differ from the next by no more than this share
-_FAMILY = 5e-3
+#: vectors of a subspace, and rounds that each add one for every root
+_MOST, _ROUNDS = 96, 30
+#: the last change of a root, as a share of it, and a residual that is rounding, after which there is none
+_ROOT, _EXACT = 1e-9, 1e-13
+#: frequencies of a family differ from its middle by no more than this share
+_FAMILY = 1e-2
 #: a root farther from that of the reduced model, as a share of it, is another one
 _FARTHEST = 5e-2
-#: MAC of the contact motion above which a root from the factor of another operating point is the one sought, and below
-#: which even that from a factor of its own is another one
+#: MAC of the contact motion above which a root in the subspace of others is the one sought, and below which even that
+#: in a subspace of its own is another one
 _ALIKE, _SAME = 0.95, 0.5
 
 
 @dataclass(frozen=True)
 class Guess:
-    """A ``root`` (1/s) of a reduced model and the motion (c,) of the contacts in it along ``rows`` (c, n) of the full
-    one, whose ``matrices`` are sparse (M, C, K)."""
+    """A ``root`` (1/s) of a reduced model, the motion (3c,) of the contacts in it, n, t and l, and where it slides."""
 
     root: complex
     motion: np.ndarray
-    rows: "scipy.sparse.csr_matrix"
-    matrices: tuple
+    point: SlidingPoint
 
 
 @dataclass(frozen=True)
 class FullRoot:
-    """A root (1/s), its vector (n,), its residual |T(s) x| / |K x|, the MAC of its contact motion with the guess."""
+    """A root (1/s), its vector (n,), its residual |T(s) x| / |K x|, the MAC of its contact motion with the guess, and
+    whether residual and root have ``settled``."""
 
     root: complex
     vector: np.ndarray
     residual: float
     likeness: float
+    settled: bool
 
 
 def sliding_as(full, model):
@@ -61,66 +57,94 @@ def sliding_as(full, model):
 
 
 def families(roots, state):
-    """Indices of ``roots`` (r,) of one ``state`` (r,) and nearly one frequency: arrays, from the middle out."""
-    order = np.lexsort((roots.imag, state))
-    frequency, state = roots.imag[order], np.asarray(state)[order]
-    apart = (np.diff(state) != 0) | (np.diff(frequency) > _FAMILY * frequency[1:])
-    return [group[np.argsort(abs(roots[group] - roots[group].mean()), kind="stable")]
-            for group in np.split(order, np.flatnonzero(apart) + 1)]
+    """Indices of ``roots`` (r,) 1/s of one ``state`` (r,) and nearly one frequency: arrays, from their middle out."""
+    order, groups = np.lexsort((roots.imag, state)), []
+    while len(order):
+        frequency, first = roots.imag[order], order[0]
+        near = (state[order] == state[first]) & (frequency <= frequency[0] * (1 + _FAMILY) / (1 - _FAMILY))
+        group, order = np.sort(order[near]), order[~near]
+        groups.append(group[np.argsort(abs(np.arange(len(group)) - (len(group) - 1) / 2), kind="stable")])
+    return groups
 
 
-def full_roots(guesses, solver, tolerance):
-    """A FullRoot for each Guess of a family of operating points, the first of which should be in its middle.
+def full_roots(guesses, operator, solver, tolerance):
+    """A FullRoot for each Guess of a family, the first of which should be in its middle, on a SharedOperator.
 
     Raises ConvergenceError where a residual exceeds ``tolerance`` or no such mode lies near the guess.
     """
-    factors, solved = _Factors(solver), []
-    for guess in guesses:
-        mode = _from(guess, factors, tolerance) if factors.ready else None
-        if mode is None or mode.likeness < _ALIKE:
-            mass, damping, stiffness = guess.matrices
-            factors.renew(guess.root**2 * mass + guess.root * damping + stiffness)
-            mode = _from(guess, factors, tolerance)
-        if not mode.residual <= tolerance or mode.likeness < _SAME or abs(mode.root / guess.root - 1) > _FARTHEST:
+    modes = _Search(operator, guesses[0], solver).modes(guesses, tolerance)
+    for k, (guess, mode) in enumerate(zip(guesses, modes, strict=True)):
+        if _missed(guess, mode) or mode.likeness < _ALIKE:
+            modes[k] = mode = _Search(operator, guess, solver).modes([guess], tolerance)[0]
+        if _missed(guess, mode):
             raise _not_there(guess, mode, tolerance)
-        solved.append(mode)
-    return solved
+    return modes
 
 
-class _Factors:
-    """The sparse factor in use, if it is ``ready``; another takes its place after its memory was released."""
-
-    def __init__(self, solver):
-        self._solver, self._factor = solver, None
-
-    @property
-    def ready(self):
-        return self._factor is not None
-
-    def renew(self, matrix):
-        self._factor = None
-        self._factor = factorise(matrix, self._solver, symmetric=False)
-
-    def solve(self, rhs, adjoint=False):
-        return self._factor.solve(rhs, adjoint)
+def _missed(guess, mode):
+    """Whether a FullRoot is none, or not that of a Guess."""
+    return not mode.settled or mode.likeness < _SAME or abs(mode.root / guess.root - 1) > _FARTHEST
 
 
-def _from(guess, factors, tolerance):
-    """FullRoot from a Guess and a factor of T near it, which may give way to another."""
-    (mass, damping, stiffness), root = guess.matrices, guess.root
-    x, residual, norm = factors.solve(guess.rows.T @ guess.motion), np.inf, np.linalg.norm
-    for _ in range(_STARTS):
-        x = x / norm(x)
-        x = factors.solve(2 * root * product(mass, x) + product(damping, x))
-    for _ in range(_ROUNDS):
-        root, x = polished(mass, damping, stiffness, root, x, factors=factors, accuracy=tolerance)
-        forces = stiffness @ x
-        residual = norm(root * (root * product(mass, x) + product(damping, x)) + forces) / norm(forces)
-        if residual <= tolerance:
-            break
-    moved = guess.rows @ x
-    likeness = (abs(np.vdot(moved, guess.motion)) / (norm(moved) * norm(guess.motion))) ** 2
-    return FullRoot(root, x, float(residual), float(likeness))
+class _Search:
+    """The subspace in which roots are sought together, and the factor with which it grows."""
+
+    def __init__(self, operator, guess, solver):
+        self._operator, self._space = operator, Subspace(operator, _MOST)
+        self._factor = factorise(operator.symmetric(guess.point, guess.root), solver, single=True)
+
+    def modes(self, guesses, tolerance):
+        """[FullRoot] from Guesses, each as it is after as many rounds as are allowed and there is room for."""
+        modes, left = [None] * len(guesses), list(range(len(guesses)))
+        forces = np.stack([self._begin(guess) for guess in guesses], axis=1)
+        for _ in range(_ROUNDS):
+            if self._space.room < len(left):
+                break
+            self._space.add(self._factor.solve(forces))
+            found, forces = self._projected([guesses[k] for k in left], [modes[k] for k in left], tolerance)
+            for k, mode in zip(left, found, strict=True):
+                modes[k] = mode
+            forces = forces[:, [not mode.settled for mode in found]]
+            left = [k for k in left if not modes[k].settled]
+            if not left:
+                break
+        return modes
+
+    def _begin(self, guess):
+        """Forces (n,) of a Guess: those of friction or, where there are none, some at the contacts that move."""
+        drawn = self._operator.drawn(guess.point, guess.root, guess.motion)
+        return drawn if drawn.any() else self._operator.rows.T @ guess.motion
+
+    def _projected(self, guesses, before, tolerance):
+        """([FullRoot of each Guess], the forces (n, g) that they leave) in the subspace as it is; ``before``: those of
+        the round before, or None."""
+        roots, weights, likeness = map(np.array, zip(*map(self._likest, guesses), strict=True))
+        vectors = self._space.vectors(weights.T)
+        left, elastic = self._operator.forces([guess.point for guess in guesses], roots, vectors)
+        residual = np.linalg.norm(left, axis=0) / np.linalg.norm(elastic, axis=0)
+        moved = [np.inf if old is None else abs(old.root - root) for old, root in zip(before, roots, strict=True)]
+        settled = (residual <= tolerance) & ((moved <= _ROOT * abs(roots)) | (residual <= _EXACT))
+        modes = [FullRoot(complex(root), x, float(r), float(mac), bool(done)) for root, x, r, mac, done in
+                 zip(roots, vectors.T, residual, likeness, settled, strict=True)]
+        return modes, left
+
+    def _likest(self, guess):
+        """(root, weight (m,) of the vectors, MAC) of the mode near a Guess whose contacts move most as in it."""
+        root, weight = small_modes(*self._space.matrices(guess.point), abs(guess.root))
+        near = np.flatnonzero(abs(root / guess.root - 1) <= _FARTHEST)
+        near = near if len(near) else np.array([np.argmin(abs(root - guess.root))])
+        moved, norm = self._space.motion(weight[:, near]), np.linalg.norm
+        likeness = (abs(guess.motion.conj() @ moved) / (norm(moved, axis=0) * norm(guess.motion))) ** 2
+        best = int(np.argmax(likeness))
+        return root[near[best]], weight[:, near[best]], likeness[best]
+
+
+def small_modes(mass, damping, stiffness, pace):
+    """(roots (2m,) 1/s, vectors (m, 2m)) of complex matrices (m, m), of roots of about the size ``pace`` 1/s."""
+    m = len(mass)
+    lower = -np.linalg.solve(pace**2 * mass, np.hstack((stiffness, pace * damping)))
+    value, vector = np.linalg.eig(np.vstack((np.eye(m, 2 * m, m), lower)))
+    return pace * value, vector[:m]
 
 
 def _not_there(guess, mode, tolerance):

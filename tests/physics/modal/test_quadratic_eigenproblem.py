@@ -12,6 +12,7 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     quadratic_modes,
     quadratic_roots,
     upper_half,
+    vectors_of,
 )
 from pipeline.physics.stability.linearisation import Settling
 
@@ -25,6 +26,39 @@ def random_system(n, seed=0):
 def by_height(roots):
     """Sorted by imaginary part, then real part; the digits that rounding may change do not count."""
     return roots[np.lexsort((roots.real, roots.imag.round(6)))]
+
+
+def vectors_match(matrices, roots, vectors, beside=None):
+    mass, damping, stiffness = matrices
+    assert len(roots) == vectors.shape[1]
+    for s, x in zip(roots, vectors.T, strict=True):
+        forces = s**2 * mass @ x + s * damping @ x + stiffness @ x
+        if beside is not None:
+            forces -= beside.push @ ((beside.by_place + s * beside.by_speed) @ x / (s + beside.decay))
+        assert np.linalg.norm(forces) < 1e-9 * np.linalg.norm(stiffness @ x)
+        assert (x.conj() @ mass @ x).real == pytest.approx(1.0)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("settles", [False, True])
+def test_vectors_of_known_roots(settles):
+    random, matrices = np.random.default_rng(5), random_system(30)
+    beside = Settling(*(random.standard_normal(shape) for shape in ((30, 2), (2, 30), (2, 30))), np.array([1.0, 3.0]))
+    beside = beside if settles else None
+    every = quadratic_roots(*matrices, beside)
+    chosen = every[[40, 55, 58]]
+    vectors_match(matrices, chosen, vectors_of(*matrices, chosen, every, beside), beside)
+
+
+@pytest.mark.exact
+def test_vectors_of_roots_that_are_equal_differ():
+    """A doublet, of which inverse iteration finds the same vector twice."""
+    matrices = np.eye(40), 0.1 * np.eye(40), np.diag(np.repeat(np.arange(1.0, 21.0), 2))
+    every = quadratic_roots(*matrices)
+    chosen = every[-2:]
+    vectors = vectors_of(*matrices, chosen, every)
+    vectors_match(matrices, chosen, vectors)
+    assert np.linalg.svd(vectors, compute_uv=False)[-1] > 0.1
 
 
 @pytest.mark.exact

@@ -43,6 +43,14 @@ def test_unsymmetric_and_complex(solver):
             assert np.linalg.norm(operator @ factor.solve(rhs, adjoint) - rhs) < 1e-10 * np.linalg.norm(rhs)
 
 
+def test_single_precision_holds_its_digits_and_no_more(solver):
+    rhs = np.random.default_rng(1).standard_normal((512, 2)) * (1 + 0.5j)
+    for a, symmetric in ((laplacian() + 0.3j * sp.identity(512), True), (laplacian() * (1 + 0.1j), False)):
+        factor = factorise(a, solver, symmetric, single=True)
+        missed = np.linalg.norm(a @ factor.solve(rhs) - rhs) / np.linalg.norm(rhs)
+        assert 1e-10 < missed < 1e-4 and factor.negative is None
+
+
 def test_saddle_point_with_empty_diagonal(solver):
     matrix = sp.bmat([[sp.identity(3), np.ones((3, 1))], [np.ones((1, 3)), None]])
     rhs = np.arange(4.0)
