@@ -160,15 +160,25 @@ def _system(point, model, friction_map, modes, terms, given, settings):
     if steady.states is not None and len(steady.states[0].kind):
         raise ConfigError("limit_cycle", "friction without a memory", "friction that remembers load or speed",
                           "leave it out here, by limit_cycle.without")
-    about = steady.about(case.bench.model)
-    whole = sliding_modes(about, steady.acting(linear.friction_slopes), linear.frequency_max,
-                          settings.smallest_correction, friction_damping=linear.friction_damping,
-                          gyroscopic=linear.gyroscopic, centrifugal=linear.centrifugal)
-    root, limit = modes.operating_root[point], linear.frequency_max
-    root = root[(root.imag > 0) & nearly(root, linear)]
+    about, limit = steady.about(case.bench.model), linear.frequency_max
+    root, reduced = _roots(point, modes, linear)
+    whole = sliding_modes(about, steady.acting(linear.friction_slopes), limit, settings.smallest_correction, reduced,
+                          friction_damping=linear.friction_damping, gyroscopic=linear.gyroscopic,
+                          centrifugal=linear.centrifugal)
     return sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
-                          whole.with_roots(root).damped_above(limit, settings.damping_above), model.contact_body,
-                          settings.patch, settings.stick_speed)
+                          whole.with_roots(root, reduced).damped_above(limit, settings.damping_above),
+                          model.contact_body, settings.patch, settings.stick_speed)
+
+
+def _roots(point, modes, linear):
+    """Roots at an operating point that grow or nearly do, and the same in the reduced model, where full matrices moved
+    them."""
+    root = modes.operating_root[point]
+    root = root[(root.imag > 0) & nearly(root, linear)]
+    reduced = root.copy()
+    for full, before in zip(modes.unstable_root, modes.unstable_reduced, strict=True):
+        reduced[root == full] = before
+    return root, reduced
 
 
 def _cycle(system, start, sensor_rows, settings):

@@ -81,9 +81,13 @@ def step_kernel(root, motion, force, step):
 
 
 def _together(*matrices):
-    """The same matrices, copied into one block, which large pages of memory can hold."""
+    """The same matrices in single precision, copied into one block, which large pages of memory can hold.
+
+    A step takes as long as they are read. Sums remain in double precision, so that the motion is exactly that of rows
+    which are off by 6e-8 of themselves, far below what is known of a contact.
+    """
     sizes = [each.size for each in matrices]
-    parts = np.split(np.concatenate([each.ravel() for each in matrices]), np.cumsum(sizes)[:-1])
+    parts = np.split(np.concatenate([each.ravel() for each in matrices], dtype=np.float32), np.cumsum(sizes)[:-1])
     return [part.reshape(each.shape) for part, each in zip(parts, matrices, strict=True)]
 
 

@@ -16,13 +16,17 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import quadratic_modes
+from pipeline.physics.modal.quadratic_eigenproblem import polished, quadratic_modes
 from pipeline.physics.stability.friction_basis import friction_basis
 
 #: an imaginary part below this share of the root is rounding
 _REAL = 1e-9
 #: largest distance of a root from that which takes its place, relative
 _MATCH = 5e-3
+#: largest distance at which a basis reaches a root, relative
+_REACHED = 1e-3
+#: rounds of inverse iteration that lead to a mode, and the share of the squared size of shapes below which they agree
+_ROUNDS, _ALIKE = 4, 1e-12
 
 
 @dataclass(frozen=True)
@@ -50,22 +54,34 @@ class SlidingModes:
         rate = self.root.real
         return np.flatnonzero(rate > least)[np.argsort(-rate[rate > least], kind="stable")]
 
-    def with_roots(self, roots):
-        """The same moving with ``roots`` (b,) of positive frequency, each in place of the nearest.
+    def with_roots(self, roots, near=None):
+        """The same moving with ``roots`` (b,) of positive frequency, each in place of the mode nearest to its root
+        ``near`` (b,) in the matrices, which is the root itself where that is left out.
 
         Raises ConvergenceError where one of them has no counterpart.
         """
+        near = roots if near is None else near
+        mode, distance = self._counterparts(near)
+        if (distance > _MATCH).any():
+            lost = np.argmax(distance)
+            raise ConvergenceError(
+                "limit_cycle: sliding motion", f"a mode at {near[lost].imag / (2 * np.pi):.6g} Hz, as complex_modes has",
+                f"the nearest {100 * distance[lost]:.2g} % off", "lower limit_cycle.smallest_correction to a tenth, or"
+                f" leave the stage out: damping that is no damper's moves this root by more than {100 * _MATCH:g} %")
+        root = self.root.copy()
+        root[mode] = roots
+        return replace(self, root=root)
+
+    def _counterparts(self, roots):
+        """(modes (b,), another for each of the ``roots`` (b,), and their relative distances (b,))."""
         pairs = np.flatnonzero(self.oscillating)
         distance = abs(roots[:, None] - self.own[pairs]) / abs(roots)[:, None]
         which, nearest = scipy.optimize.linear_sum_assignment(distance)
-        far = distance[which, nearest] > _MATCH
-        if far.any():
-            lost = roots[which[far][0]]
-            raise ConvergenceError("sliding motion", f"a mode at {lost.imag / (2 * np.pi):.6g} Hz",
-                                   f"none within {100 * _MATCH:g} %", "lower sliding motion's smallest correction")
-        root = self.root.copy()
-        root[pairs[nearest]] = roots[which]
-        return replace(self, root=root)
+        return pairs[nearest], distance[which, nearest]
+
+    def without(self, roots):
+        """Those of the ``roots`` (b,) that the basis does not reach."""
+        return roots[self._counterparts(roots)[1] > _REACHED]
 
     def damped_above(self, frequency, ratio):
         """The same, modes above a ``frequency`` [Hz] with a damping ratio of at least ``ratio``."""
@@ -75,21 +91,51 @@ class SlidingModes:
         return replace(self, root=np.where(low, damped, self.root))
 
 
-def sliding_modes(model, friction, below, smallest=1e-3, **terms):
+def sliding_modes(model, friction, below, smallest=1e-3, roots=(), **terms):
     """SlidingModes of a SlidingModel linearised about its contacts, on real modes below a frequency [Hz] and their
     corrections.
 
-    ``friction``: FrictionState; ``smallest``: corrections with smaller amplitudes are left out; ``terms``:
-    ``friction_damping``, ``gyroscopic`` and ``centrifugal`` as of ``SlidingModel.linearised``.
+    ``friction``: FrictionState; ``smallest``: corrections with smaller amplitudes are left out; ``roots`` (b,) 1/s of
+    positive frequency, roughly: where the basis does not reach one of them, the shapes of that mode in the whole model
+    join it; ``terms``: ``friction_damping``, ``gyroscopic`` and ``centrifugal`` as of ``SlidingModel.linearised``.
     """
     basis = friction_basis(model, below, terms.get("friction_damping", True), smallest, adjoint=friction,
                            centrifugal=terms.get("centrifugal", True)).shape
-    mass, damping, stiffness = (basis.T @ each @ basis for each in model.linearised(friction, **terms))
+    matrices = model.linearised(friction, **terms)
+    modes = _modes_on(basis, matrices)
+    lost = modes.without(np.asarray(roots, complex))
+    return _modes_on(_extended(basis, matrices, lost), matrices) if len(lost) else modes
+
+
+def _modes_on(basis, matrices):
+    """SlidingModes of ``matrices`` (M, C, K), each (n, n), on a ``basis`` (n, k)."""
+    mass, damping, stiffness = (basis.T @ each @ basis for each in matrices)
     modes = quadratic_modes(mass, damping, stiffness, left=True)
     real = abs(modes.value.imag) <= _REAL * abs(modes.value)
     kept = np.flatnonzero(real | (modes.value.imag > 0))
     kept = kept[np.argsort(abs(modes.value[kept]), kind="stable")]
     root, right, left = modes.value[kept], modes.right[:, kept], modes.left[:, kept].conj()
     slope = np.einsum("nm,nm->m", left, 2 * root * (mass @ right) + damping @ right)
-    return SlidingModes(root, root, right, left / slope, np.where(real[kept], 1, 2), basis, damping,
-                        stiffness)
+    return SlidingModes(root, root, right, left / slope, np.where(real[kept], 1, 2), basis, damping, stiffness)
+
+
+def _extended(basis, matrices, roots):
+    """The mass-orthonormal ``basis`` (n, k) and what right and left shapes of the modes near ``roots`` add to it."""
+    mass = matrices[0]
+    shapes = [_shape_near(root, *each) for root in roots for each in (matrices, [m.T for m in matrices])]
+    added = np.hstack([part[:, None] for shape in shapes for part in (shape.real, shape.imag)])
+    for _ in range(2):      # twice is enough (Kahan, Parlett)
+        added = added - basis @ (basis.T @ (mass @ added))
+    square, turn = np.linalg.eigh(added.T @ mass @ added)
+    kept = square > _ALIKE * square[-1]
+    return np.hstack((basis, added @ turn[:, kept] / np.sqrt(square[kept])))
+
+
+def _shape_near(root, mass, damping, stiffness):
+    """(n,) shape of the mode nearest to a ``root``, of unit length; by inverse iteration, then polished."""
+    factor = scipy.linalg.lu_factor(root**2 * mass + root * damping + stiffness)
+    shape = np.random.default_rng(len(mass)).standard_normal(len(mass)).astype(complex)
+    for _ in range(_ROUNDS):
+        shape = scipy.linalg.lu_solve(factor, (2 * root * mass + damping) @ shape)
+        shape /= np.linalg.norm(shape)
+    return polished(mass, damping, stiffness, root, shape)[1]

@@ -4,15 +4,18 @@ The gap between the undeformed surfaces is closed by the surface compliance of b
 pressure and no gap, the others a gap and no pressure (frictionless, no adhesion). All maps are periodic, (ny, nx).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.rough.contact.contact_steps import Path, stencil
 
 #: area of the boundary cells that a node-wise count adds, in spacing * perimeter (Yastrebov et al. 2017, equation 8)
 PERIMETER_SHARE = (np.pi - 1.0 + np.log(2.0)) / 24.0
+#: errors, in rms gaps, down to which contacts are sought in single precision, and that share of the tolerance
+_SINGLE, _SURE = 1e-5, 0.98
 
 
 @dataclass(frozen=True)
@@ -48,49 +51,73 @@ def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1
     if mean_pressure <= 0.0 or scale == 0.0:
         raise ConfigError("normal contact", "a positive pressure and a gap that varies",
                           f"{mean_pressure:g} Pa on a gap of {scale:g} m rms")
+    near, begun = stencil(compliance, gap.shape), max(_SURE * tolerance, _SINGLE)
     pressure = np.full(gap.shape, float(mean_pressure)) if start is None else np.maximum(start, 0.0)
-    pressure *= mean_pressure / pressure.mean()
-    bearing, path, displaced = np.flatnonzero(pressure), _Path(gap.shape), None
-    for iteration in range(max_iterations):
+    pressure, done = _in_single(gap, compliance, near, mean_pressure, pressure, scale, begun, max_iterations)
+    contact, error = _relaxed(gap, compliance, near, mean_pressure, pressure, tolerance * scale, max_iterations - done)
+    if error >= tolerance * scale:
+        raise ConvergenceError("normal contact", f"a gap error of {tolerance:g} rms within {max_iterations} iterations",
+                               f"{error / scale:.2g}", "raise max_iterations or tolerance")
+    return replace(contact, iterations=done + contact.iterations)
+
+
+def _in_single(gap, compliance, near, mean_pressure, pressure, scale, tolerance, iterations):
+    """(pressure, iterations) of the contact in single precision, from a ``pressure`` map.
+
+    Lengths are in ``scale`` m, pressures in the mean. A displacement of all nodes alike, which may exceed the roughness
+    by far, is left out, so that rounding stays near 1e-7 of the gap.
+    """
+    waves = np.asarray(compliance * (mean_pressure / scale), np.float32)
+    waves[0, 0] = 0.0
+    contact, _ = _relaxed(np.asarray((gap - gap.mean()) / scale, np.float32), waves, near * (scale / mean_pressure), 1.0,
+                          np.asarray(pressure / pressure.mean(), np.float32), tolerance, iterations)
+    return mean_pressure * contact.pressure.astype(float), contact.iterations
+
+
+def _relaxed(gap, compliance, near, mean_pressure, pressure, tolerance, iterations):
+    """(NormalContact, error in m) once the error is below ``tolerance`` (m) or ``iterations`` are over; in the
+    precision of its arrays. ``near``: the stencil of the compliance."""
+    pressure = pressure * (mean_pressure / pressure.mean())
+    joining = float(near.max())
+    bearing, path, displaced = np.flatnonzero(pressure > 0.0), Path(near, gap), None
+    for iteration in range(iterations + 1):
         displaced = apply(compliance, pressure) if displaced is None else displaced
         distance = (gap + displaced).ravel()
         approach = distance[bearing].mean()
         distance -= approach
         overlap = -distance.min()
-        error = max(distance[bearing].max(), overlap) / scale
-        if error < tolerance:
-            return NormalContact(pressure, approach, iteration)
+        error = max(distance[bearing].max(), overlap)
+        if error < tolerance or iteration == iterations:
+            return NormalContact(pressure, approach, iteration), error
         free = _free(distance, bearing) if overlap > 0.0 else bearing
         slope = path.turn(free, distance[free])
         image = apply(compliance, path.direction)
         step = slope / np.vdot(image, path.direction)
-        bearing, factor = _advance(pressure, step, path.direction, free, distance[free], mean_pressure)
+        bearing, factor = _advance(pressure, step * path.direction.ravel()[free], free,
+                                   -step * joining * distance[free], mean_pressure)
         displaced = None if factor is None else factor * (displaced - step * image)
-    raise ConvergenceError("normal contact", f"a gap error of {tolerance:g} rms within {max_iterations} iterations",
-                           f"{error:.2g}", "raise max_iterations or tolerance")
 
 
-class _Path:
-    """Conjugate ``direction`` (ny, nx) in m, of no mean, nonzero at the free nodes of the last turn alone."""
+def _free(distance, bearing):
+    """Nodes that bear or overlap, by their places in the flat ``distance`` (n,) from the approach, in m."""
+    free = distance < 0.0
+    free[bearing] = True
+    return np.flatnonzero(free)
 
-    def __init__(self, shape):
-        self.direction, self._residual = np.zeros(shape), np.zeros(shape)
-        self._free, self._square = np.empty(0, int), 1.0
 
-    def turn(self, free, distance):
-        """Turn into the direction of the ``free`` nodes, at a ``distance`` (n,) in m; slope (m^2) along it."""
-        direction, residual = self.direction.ravel(), self._residual.ravel()
-        new = distance - distance.mean()
-        square = new @ new
-        conjugate = max(0.0, square - new @ residual[free]) / self._square
-        along = new + conjugate * direction[free]
-        along -= along.mean()
-        if new @ along <= 0.0:      # uphill: steepest descent
-            along = new
-        direction[self._free] = residual[self._free] = 0.0
-        direction[free], residual[free] = along, new
-        self._free, self._square = free, square if square > 0.0 else 1.0
-        return new @ along
+def _advance(pressure, relief, free, joining, mean_pressure):
+    """One projected step of the ``free`` nodes by their ``relief`` (n,) in Pa; changes ``pressure``.
+
+    Nodes that would open but overlap are loaded by ``joining`` (n,) Pa, > 0 at such. (Nodes that bear then, factor on
+    the straight step that keeps the mean; None where nodes were projected.)
+    """
+    straight = pressure.ravel()[free] - relief
+    new = np.maximum(straight, 0.0)
+    joins = (new == 0.0) & (joining > 0.0)
+    new[joins] = joining[joins]
+    factor = mean_pressure * pressure.size / new.sum()
+    pressure.ravel()[free] = factor * new
+    return free[new > 0.0], factor if np.array_equal(new, straight) else None
 
 
 def full_contact_pressure(gap, compliance):
@@ -106,27 +133,6 @@ def full_contact_pressure(gap, compliance):
     waves = compliance.copy()
     waves[0, 0] = 1.0
     return scipy.fft.irfft2(flattening / waves, s=gap.shape).max()
-
-
-def _free(distance, bearing):
-    """Nodes that bear or overlap, by their places in the flat ``distance`` (n,) from the approach, in m."""
-    free = distance < 0.0
-    free[bearing] = True
-    return np.flatnonzero(free)
-
-
-def _advance(pressure, step, direction, free, distance, mean_pressure):
-    """One projected step of the ``free`` nodes, which are at a ``distance`` (n,) in m; changes ``pressure``.
-
-    (Nodes that bear then, factor on the straight step that keeps the mean; None where nodes were projected.)
-    """
-    straight = pressure.ravel()[free] - step * direction.ravel()[free]
-    new = np.maximum(straight, 0.0)
-    joins = (new == 0.0) & (distance < 0.0)
-    new[joins] -= step * distance[joins]
-    factor = mean_pressure * pressure.size / new.sum()
-    pressure.ravel()[free] = factor * new
-    return free[new > 0.0], factor if np.array_equal(new, straight) else None
 
 
 def contact_area(contact):

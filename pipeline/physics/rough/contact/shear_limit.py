@@ -11,6 +11,7 @@ import scipy
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.numerics.accelerated_gradients import ahead_of
+from pipeline.physics.rough.contact.normal_contact import apply
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,7 @@ def full_slip_displacement(limit, compliance):
     """
     if not np.any(limit > 0.0):
         return 0.0
-    uniform = np.stack([limit, np.zeros_like(limit)])
-    displaced = _apply(compliance, uniform)[0]
+    displaced = apply(compliance.along, limit)
     return displaced[limit > 0.0].max() - compliance.along[0, 0] * limit.mean()
 
 

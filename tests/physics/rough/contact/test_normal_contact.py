@@ -208,3 +208,16 @@ def test_a_single_touching_node_bears_the_load(rough):
     pressure = solve_normal_contact(-rough, compliance, 1e-9).pressure
     assert np.count_nonzero(pressure) == 1 and np.argmax(pressure) == np.argmax(rough)
     assert pressure.sum() == pytest.approx(1e-9 * rough.size, rel=1e-12)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8])
+def test_rounding_stays_below_the_tolerance_where_the_blocks_move_by_far_more_than_the_gap(rough, tolerance):
+    compliance = half_space_compliance(rough.shape, (1.0, 1.0), YOUNG, POISSON).normal
+    compliance[0, 0] = 1e5 * rough.std() / 0.02
+    pressure = solve_normal_contact(1e3 - rough, compliance, 0.02, tolerance=tolerance).pressure
+    distance = apply(compliance, pressure) - rough
+    distance -= distance[pressure > 0.0].mean()
+    assert pressure.mean() == pytest.approx(0.02)
+    assert abs(distance[pressure > 0.0]).max() < 1.01 * tolerance * rough.std()
+    assert distance.min() > -1.01 * tolerance * rough.std()
