@@ -15,28 +15,42 @@ _SLOWEST = 20
 #: a file to which (CPU seconds, test) of every test is written, for a closer look
 _TABLE = "BRAKECHAIN_TEST_COSTS"
 
-_since = os.times()
+_since, _collecting = os.times(), 0.0
+
+
+def pytest_collection_finish():
+    """What was imported and collected until now is told apart from the tests."""
+    global _collecting
+    _collecting = _spent()
 
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport():
-    """Write into the report of each phase what it has cost."""
-    global _since
+    """Write into the report of each phase what it has cost, into the first what collecting has."""
+    global _collecting
     outcome = yield
-    now = os.times()
-    outcome.get_result().cpu_seconds = sum(now[:4]) - sum(_since[:4])
-    _since = now
+    report = outcome.get_result()
+    report.cpu_seconds, report.collecting, _collecting = _spent(), _collecting, 0.0
+
+
+def _spent():
+    """CPU seconds since the last call."""
+    global _since
+    before, _since = _since, os.times()
+    return sum(_since[:4]) - sum(before[:4])
 
 
 def pytest_terminal_summary(terminalreporter):
     """Print the slowest tests, and write all where a table is asked for."""
-    costs = of(report for reports in terminalreporter.stats.values() for report in reports)
+    reports = [report for reports in terminalreporter.stats.values() for report in reports]
+    costs, collecting = of(reports), sum(getattr(report, "collecting", 0.0) for report in reports)
     if not costs:
         return
     order = sorted(costs, key=costs.get, reverse=True)
     if table := os.environ.get(_TABLE):
         Path(table).write_text("".join(f"{costs[test]:.3f}\t{test}\n" for test in order), encoding="utf-8")
-    terminalreporter.section(f"{sum(costs.values()):.0f} CPU seconds; the {_SLOWEST} slowest of {len(order)} tests")
+    terminalreporter.section(f"{sum(costs.values()):.0f} CPU seconds and {collecting:.0f} for collecting; the"
+                             f" {_SLOWEST} slowest of {len(order)} tests")
     for test in order[:_SLOWEST]:
         terminalreporter.line(f"{costs[test]:8.1f}  {test}")
 

@@ -3,6 +3,7 @@
 import ast
 import re
 from collections import Counter
+from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
 from pathlib import Path
@@ -133,7 +134,9 @@ def dotted(path):
     return name.removesuffix(".__init__")
 
 
-TREES = {path: ast.parse(path.read_text()) for path in FILES}
+@cache
+def tree(path):
+    return ast.parse(path.read_text())
 
 
 def imports(nodes):
@@ -147,7 +150,7 @@ def imports(nodes):
 
 
 def everywhere(path):
-    return list(imports(ast.walk(TREES[path])))
+    return list(imports(ast.walk(tree(path))))
 
 
 def within(name, allowed):
@@ -204,12 +207,12 @@ def test_third_party_packages_enter_by_their_doors():
 
 def test_heavy_packages_load_when_needed():
     assert not [f"{dotted(path)}: import {name} where it is used" for path in FILES
-                for name in imports(TREES[path].body) if name.split(".")[0] in HEAVY
+                for name in imports(tree(path).body) if name.split(".")[0] in HEAVY
                 or (EAGER.match(name) and not within(dotted(path), {"pipeline.blind_trial"}))]
 
 
 def test_every_module_has_a_docstring():
-    assert not [dotted(path) for path in FILES if not ast.get_docstring(TREES[path])]
+    assert not [dotted(path) for path in FILES if not ast.get_docstring(tree(path))]
 
 
 def test_every_file_has_its_test():
@@ -237,7 +240,7 @@ def test_modules_and_functions_stay_short():
     """Modules mostly below 200 lines, functions mostly below 25."""
     modules = {dotted(path): len(path.read_text().splitlines()) for path in FILES}
     functions = {f"{dotted(path)}.{node.name}": node.end_lineno - node.lineno + 1 for path in FILES
-                 for node in ast.walk(TREES[path]) if isinstance(node, ast.FunctionDef)}
+                 for node in ast.walk(tree(path)) if isinstance(node, ast.FunctionDef)}
     for sizes, usual, most in ((modules, 200, 400), (functions, 25, 80)):
         assert not {name: n for name, n in sizes.items() if n > most and name not in LONG}
         assert sum(n > usual for n in sizes.values()) < len(sizes) / 8
