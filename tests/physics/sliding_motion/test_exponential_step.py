@@ -41,8 +41,10 @@ def test_the_response_is_the_motion_by_forces_at_the_end_alone():
     modal = given @ force
     state = (kernel.end[0] + 1j * kernel.end[1]) * (modal[:4] + 1j * modal[4:])
     error = given @ kernel.response - motion @ np.concatenate((state.real, state.imag))
-    assert (abs(error) <= 0.51 * np.finfo(np.float32).eps * (abs(given) @ abs(kernel.response))).all()     # rounded once
-    np.testing.assert_array_equal(kernel.own[..., 1].astype(np.float32), kernel.response.reshape(3, 2, 4, 2)[:, 1, :, 1].T)
+    rounded = 0.51 * np.finfo(np.float32).eps       # once
+    assert (abs(error) <= rounded * (abs(given) @ abs(kernel.response))).all()
+    np.testing.assert_array_equal(kernel.own[..., 1].astype(np.float32),
+                                  kernel.response.reshape(3, 2, 4, 2)[:, 1, :, 1].T)
 
 
 @pytest.mark.parametrize("rows", [2, 4, 11])
