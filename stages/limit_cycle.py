@@ -91,9 +91,14 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     terms = kept(physics_terms(effects), settings.without)
     simulate = partial(_simulate, model=model, friction_map=friction_map, modes=modes, terms=terms,
                        given=conditions(effects), settings=settings)
-    checks, strongest = _checks(points, modes, settings)
-    motions = context.map(simulate, checks + [(point, settings) for point in points], "limit cycles")
-    others, results = motions[:len(checks)], motions[len(checks):]
+    finer, strongest = _checks(points, modes, settings)
+    apart = [name for name in finer if name != STEP]
+    tasks = [(points[strongest], finer[name], None) for name in apart]
+    tasks += [(point, settings, finer.get(STEP) if k == strongest else None) for k, point in enumerate(points)]
+    motions = context.map(simulate, tasks, "limit cycles")
+    others, results = dict(zip(apart, motions, strict=False)), motions[len(apart):]
+    if STEP in finer:
+        others[STEP] = results[strongest]["finer"]
     for result in results:
         if result["imbalance"] > _TOLERATED:
             context.log(f"energy balances only within {100 * result['imbalance']:.2g} %; a shorter step would help")
@@ -105,7 +110,7 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         onset_simulated=np.array([o[2] for o in onset], complex), sensor_name=model.sensor_name, window=settings.window,
         settled_within=settings.settled_within, step=settings.step, **_axes(results, settings), **fields,
         listen=_listen(results, model.sensor_name),
-        **_changes(settings.checks[:len(checks)], others, results[strongest] if checks else None))
+        **_changes({name: others[name] for name in finer}, results[strongest] if finer else None))
 
 
 #: largest error of the energy balance that passes without a message
@@ -118,8 +123,9 @@ _FIELDS = ("level", "open_share", "stick_share", "settled", "imbalance", "added_
 
 
 def _simulate(task, model, friction_map, modes, terms, given, settings):
-    """Fields of one operating point; ``task``: (its index in complex modes, settings of this simulation)."""
-    point, settings = task
+    """Fields of one operating point; ``task``: (its index in complex modes, settings of this simulation, the same with
+    another step for a check on the same system, or None)."""
+    point, settings, finer = task
     system = _system(point, model, friction_map, modes, terms, given, settings)
     growing = system.modes.growing(0.0)
     growing = growing[np.isin(system.modes.root[growing], modes.unstable_root[modes.unstable_operating == point])]
@@ -131,7 +137,8 @@ def _simulate(task, model, friction_map, modes, terms, given, settings):
     seen = (seen.real + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])
     start[growing] = _LARGE * system.reach[growing]
     return {"onset": (system.modes.root[growing], seen), "patches": len(system.patches.load),
-            "modes": len(system.modes.root), **_cycle(system, start, model.sensor_rows, settings)}
+            "modes": len(system.modes.root), **_cycle(system, start, model.sensor_rows, settings),
+            "finer": finer and _cycle(system, start, model.sensor_rows, finer, book=False)}
 
 
 def _advanced(system, settings, start, duration, *options, **others):
@@ -181,13 +188,14 @@ def _roots(point, modes, linear):
     return root, reduced
 
 
-def _cycle(system, start, sensor_rows, settings):
-    """Levels over windows, energy balance, and the end of the motion."""
+def _cycle(system, start, sensor_rows, settings, book=True):
+    """Levels over windows, and the end of the motion; with a ``book`` of the last window its energy balance."""
     rows, count = system.velocity_rows(sensor_rows), round(settings.duration / settings.window)
     every = max(round(1 / (_RATE * settings.step)), 1)
     levels, opened, stuck, signals, end = [], [], [], [], start
     for number in range(count):
-        run = _advanced(system, settings, end, settings.window, every, book=number == count - 1)
+        run = _advanced(system, settings, end, settings.window, every,
+                        book=book and number == count - 1)
         end, velocity = run.end, (rows @ run.state.T).real
         levels.append(np.sqrt((velocity**2).mean(axis=1)))
         if not levels[-1].max(initial=0.0) < _UNBOUNDED:
@@ -201,7 +209,7 @@ def _cycle(system, start, sensor_rows, settings):
     frequency, harmonic, spectrum = _lines(last, every * settings.step, settings.harmonics)
     return {"level": np.array(levels).T, "open_share": opened, "stick_share": stuck,
             "settled": int(abs(_decibel(levels[-1], levels[-2])) <= settings.settled_within),
-            "imbalance": run.imbalance, "added_loss": run.added[-1] / (run.added[-1] + run.loss[-1]),
+            "imbalance": run.imbalance, "added_loss": run.added[-1] / (run.added[-1] + run.loss[-1]) if book else 0.0,
             "velocity": signals[-1].astype(np.float32), "spectrum": spectrum, "cycle_frequency": frequency,
             "harmonic_amplitude": harmonic}
 
@@ -258,20 +266,19 @@ def _listen(results, sensors):
 
 
 def _checks(points, modes, settings):
-    """(tasks, finer than the others, place of their operating point): one for each check, where growth is fastest."""
+    """({name: settings finer than the others}, place of their operating point): each check, where growth is fastest."""
     if not (len(points) and settings.checks):
-        return [], 0
+        return {}, 0
     growth = [modes.unstable_root.real[modes.unstable_operating == point].max() for point in points]
-    strongest = int(np.argmax(growth))
     finer = {STEP: {"step": settings.step / 2}, PATCHES: {"patch": max(settings.patch // 2, 1)},
              STICK: {"stick_speed": settings.stick_speed / 2},
              MODES: {"smallest_correction": settings.smallest_correction / 2}}
-    return [(points[strongest], settings.model_copy(update=finer[name])) for name in settings.checks], strongest
+    return {name: settings.model_copy(update=finer[name]) for name in settings.checks}, int(np.argmax(growth))
 
 
-def _changes(names, finer, here):
-    """Changes of level and frequency by each check from the results ``here``."""
-    level = [result["level"][:, -2:].mean(axis=1) for result in finer]
-    return {"check": list(names),
+def _changes(finer, here):
+    """Changes of level and frequency by each check {name: results} from the results ``here``."""
+    level = [result["level"][:, -2:].mean(axis=1) for result in finer.values()]
+    return {"check": list(finer),
             "check_level": [_decibel(each, here["level"][:, -2:].mean(axis=1)) for each in level],
-            "check_frequency": [result["cycle_frequency"] / here["cycle_frequency"] - 1 for result in finer]}
+            "check_frequency": [result["cycle_frequency"] / here["cycle_frequency"] - 1 for result in finer.values()]}

@@ -6,6 +6,7 @@ and cividis, signed quantities purple-orange; every category also differs by lin
 """
 
 from contextlib import contextmanager
+from functools import cache
 from io import BytesIO
 from itertools import pairwise
 
@@ -37,14 +38,23 @@ RC = {
 @contextmanager
 def drawing(height=HEIGHT, left=0.72, right=0.15, top=None, bar=False):
     """An empty matplotlib Figure in the style of the report; margins in inches, ``bar`` keeps room for a colour bar."""
-    from matplotlib import style
+    from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    with style.context(RC, after_reset=True):
+    with rc_context(_look()):
         figure, top = Figure(figsize=(WIDTH, height)), (0.14 if bar else 0.34) if top is None else top
         figure.subplots_adjust(left=left / WIDTH, right=1.0 - (0.78 if bar else right) / WIDTH,
                                bottom=0.52 / height, top=1.0 - top / height, hspace=0.35)
         yield figure
+
+
+@cache
+def _look():
+    """All settings of matplotlib in the style of the report, whatever a user has set; made once, as it takes long."""
+    from matplotlib import rcParams, style
+
+    with style.context(RC, after_reset=True):
+        return {name: value for name, value in rcParams.copy().items() if name != "backend"}
 
 
 def svg(figure):

@@ -69,8 +69,8 @@ def _in_single(gap, compliance, near, mean_pressure, pressure, scale, tolerance,
     """
     waves = np.asarray(compliance * (mean_pressure / scale), np.float32)
     waves[0, 0] = 0.0
-    contact, _ = _relaxed(np.asarray((gap - gap.mean()) / scale, np.float32), waves, near * (scale / mean_pressure), 1.0,
-                          np.asarray(pressure / pressure.mean(), np.float32), tolerance, iterations)
+    contact, _ = _relaxed(np.asarray((gap - gap.mean()) / scale, np.float32), waves, near * (scale / mean_pressure),
+                          1.0, np.asarray(pressure / pressure.mean(), np.float32), tolerance, iterations)
     return mean_pressure * contact.pressure.astype(float), contact.iterations
 
 
