@@ -23,8 +23,10 @@ _PEAK, _PERMANENT, _FACTOR = 14, 15, 16
 _ADJOINT = 11       # index of the parameter that solves with A^H
 #: a factor whose solution misses a seeded right-hand side by more is that of a singular matrix
 _SINGULAR = 1e-4
-#: a factor without row exchanges, or with few, is kept while it is as good as this
-_ACCURATE = 1e-8
+#: the same of a factor in single precision, whose solutions are about to be improved
+_SINGULAR_SINGLE = 1e-1
+#: a factor without row exchanges, or with few, is kept while it is as good as this, in double and single precision
+_ACCURATE, _ACCURATE_SINGLE = 1e-8, 1e-2
 #: orders of columns and thresholds of row exchanges that SuperLU tries, by symmetry
 _PATTERN = "MMD_AT_PLUS_A"
 _ORDERS = {True: ((_PATTERN, 0.0), (_PATTERN, 1.0)), False: ((_PATTERN, 0.01), ("COLAMD", 1.0))}
@@ -35,7 +37,7 @@ def available():
     return (*(("pypardiso",) if find_spec("pypardiso") and (_runtime() or _library()) else ()), "superlu")
 
 
-def factorise(matrix, solver, symmetric=True):
+def factorise(matrix, solver, symmetric=True, single=False):
     """Factorise a sparse matrix once, to solve with it often.
 
     Parameters
@@ -43,12 +45,13 @@ def factorise(matrix, solver, symmetric=True):
     matrix : (n, n) sparse, real or complex
     solver : "pypardiso" or "superlu"
     symmetric : True for A = A^T (indefinite allowed; complex means symmetric, not Hermitian)
+    single : True for a factor in single precision, of half the size, where solutions are improved afterwards
 
     Returns
     -------
     Factor with ``solve(rhs)`` for (n,) and (n, m) right-hand sides, ``solve(rhs, adjoint=True)`` for those of
-    A^H x = rhs and, for real symmetric matrices, ``negative``, the number of negative eigenvalues (Sylvester's law of
-    inertia).
+    A^H x = rhs and, for real symmetric matrices in double precision, ``negative``, the number of negative eigenvalues
+    (Sylvester's law of inertia).
 
     Raises ConvergenceError for a singular matrix, ConfigError for an unknown solver and, with PARDISO, where the factor
     would not fit into the memory that is available, before it is computed.
@@ -61,11 +64,19 @@ def factorise(matrix, solver, symmetric=True):
         raise ConvergenceError("factorisation", "finite matrix entries", "NaN or infinity")
     if (np.diff(matrix.indptr) == 0).any():
         raise _singular(matrix, "an empty row")
-    factor = _BACKENDS[solver](matrix, symmetric)
+    factor = _BACKENDS[solver](matrix, symmetric, single)
     miss = _miss(matrix, factor)
-    if not miss < _SINGULAR:
+    if not miss < (_SINGULAR_SINGLE if single else _SINGULAR):
         raise _singular(matrix, f"a relative residual of {miss:.1e}")
     return factor
+
+
+def refactorise(factor, matrix):
+    """Factor of a ``matrix`` (n, n) sparse with the entries of that of ``factor``, whose place, order and kind it takes.
+
+    Raises ConvergenceError for a singular matrix.
+    """
+    return factor.of_another(scipy.sparse.csr_matrix(matrix))
 
 
 class _Factor:
@@ -76,25 +87,36 @@ class _Factor:
     def solve(self, rhs, adjoint=False):
         """x of A x = rhs, or A^H x = rhs, same shape as ``rhs``; complex right-hand sides are welcome."""
         rhs = np.asarray(rhs)
-        if np.iscomplexobj(rhs) and self.dtype == np.float64:
+        if np.iscomplexobj(rhs) and self.dtype.kind == "f":
             return self.solve(rhs.real, adjoint) + 1j * self.solve(rhs.imag, adjoint)
         columns = np.asfortranarray(rhs.reshape(len(rhs), -1), dtype=self.dtype)
         return self._solve(columns, adjoint).reshape(rhs.shape)
+
+
+def _kind(matrix, single):
+    """Type of the numbers of a factor."""
+    names = ("c8", "c16") if np.iscomplexobj(matrix) else ("f4", "f8")
+    return np.dtype(names[0 if single else 1])
 
 
 class _SuperLU(_Factor):
     """Symmetric matrices are first tried without row exchanges, which keeps the inertia readable; others with few of
     them in the order of a symmetric pattern, which those of bodies in contact nearly have."""
 
-    def __init__(self, matrix, symmetric):
-        self.dtype = np.result_type(matrix.dtype, np.float64)
+    def __init__(self, matrix, symmetric, single):
+        self.dtype = _kind(matrix, single)
         columns = matrix.astype(self.dtype).tocsc()
         for order, threshold in _ORDERS[symmetric]:
             self._factor = _lu(columns, order, threshold)
-            if _miss(matrix, self) < _ACCURATE:
+            if _miss(matrix, self) < (_ACCURATE_SINGLE if single else _ACCURATE):
                 break
         if symmetric and self.dtype == np.float64:
             self.negative = self._inertia()
+
+        self._symmetric, self._single = symmetric, single
+
+    def of_another(self, matrix):
+        return _SuperLU(matrix, self._symmetric, self._single)
 
     def _inertia(self):
         """Negative pivots; they are those of an L D L^T only while no row was exchanged."""
@@ -118,9 +140,8 @@ def _lu(columns, order, threshold):
 
 
 class _Pardiso(_Factor):
-    def __init__(self, matrix, symmetric):
-        complex_ = np.iscomplexobj(matrix)
-        self.dtype = np.dtype(complex if complex_ else float)
+    def __init__(self, matrix, symmetric, single):
+        complex_, self.dtype, self._symmetric = np.iscomplexobj(matrix), _kind(matrix, single), symmetric
         stored = _upper_triangle(matrix) if symmetric else matrix
         self._call = _PardisoCall(stored.astype(self.dtype, copy=False), _MATRIX_TYPE[complex_, symmetric])
         weakref.finalize(self, self._call, _RELEASE)
@@ -128,8 +149,16 @@ class _Pardiso(_Factor):
         peak, permanent, factor = (1024 * int(self._call.parameter[k]) for k in (_PEAK, _PERMANENT, _FACTOR))
         refuse_beyond_memory(max(peak, permanent + factor), f"a factor of {matrix.shape[0]} degrees of freedom")
         self._call(_FACTORISE)
-        if symmetric and not complex_:
+        if symmetric and not complex_ and not single:
             self.negative = int(self._call.parameter[22])
+
+    def of_another(self, matrix):
+        """The order of columns, which takes as long as half of a factor, is that of the matrix before."""
+        matrix.sort_indices()
+        stored = _upper_triangle(matrix) if self._symmetric else matrix
+        self._call.matrix = stored.astype(self.dtype, copy=False)
+        self._call(_FACTORISE)
+        return self
 
     def _solve(self, columns, adjoint):
         self._call.parameter[_ADJOINT] = int(adjoint)
@@ -161,6 +190,7 @@ class _PardisoCall:
         self.columns = matrix.indices.astype(np.int32) + 1
         self.parameter = np.zeros(64, np.int32)
         self.parameter[[0, 1, 9, 20]] = 1, 2, 8, 1     # own values, nested dissection, pivot 1e-8, 2 x 2 pivots
+        self.parameter[27] = matrix.dtype in (np.float32, np.complex64)
         if kind in (11, 13):
             self.parameter[[9, 10, 12]] = 13, 1, 1      # pivot 1e-13, scaling, matching
         # parameter[7] = 0: no iterative refinement unless pivots had to be perturbed
