@@ -148,7 +148,8 @@ def _compared(models, stated, settings):
     alone = stated.alone(len(starts))
     fields = compared.fields() | {
         "refinement": list(names), "left_out": list(left), "left_out_reason": list(left.values()),
-        "near_root": starts[alone], "near_refined": np.where(np.isfinite(compared.finer), compared.finer, starts)[alone],
+        "near_root": starts[alone],
+        "near_refined": np.where(np.isfinite(compared.finer), compared.finer, starts)[alone],
         **_caused(models, compared), "freedoms": models.freedoms,
         "refined_freedoms": models.freedoms if fine is None else fine.freedoms,
         "refined_contacts": len(models.starts.body) if fine is None else fine.contacts}

@@ -122,7 +122,8 @@ def _stage(run, *, companions=None, reads_case=False, check=lambda sections: Non
             and bool(varied) == (variants is not None) and builds == bool(built_from))
     if not fits:
         raise ProductError(f"stage {run.__name__}: annotate the products read, 'settings', 'context' and"
-                           f" the product written; Variants of a product go with 'variants', Sections with 'built_from'")
+                           f" the product written; Variants of a product go with 'variants', Sections with"
+                           " 'built_from'")
     doc, file = inspect.getdoc(run) or "", run.__module__.rpartition(".")[2]
     if not file == run.__name__ == output.name or "Method:" not in doc:
         raise ProductError(f"stage {run.__name__}: file, function and product share one name"

@@ -112,7 +112,7 @@ def _new(operating, base, points, unstable, shape, convergence):
 
 
 def growth_error(convergence, root):
-    """By how much (1/s) the finer model of a product Convergence, or the reduction, moves the growth rate of a ``root``.
+    """By how much (1/s) the finer model of a product Convergence, or the reduction, moves the growth of a ``root``.
 
     That of the mode of its frequency there; of others the largest share, or the tolerance where all is converged.
     """

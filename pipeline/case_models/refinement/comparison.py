@@ -26,9 +26,11 @@ class Tolerances:
         return cls(settings.frequency_tolerance, settings.growth_tolerance, settings.neutral)
 
     def hold(self, root: np.ndarray, change: np.ndarray) -> np.ndarray:
-        """True (g,) where the ``change`` (g,) 1/s of a ``root`` (g,) is within them."""
+        """True (g,) where the ``change`` (g,) 1/s of a ``root`` (g,) is within them, or growth is neutral before and
+        after."""
         allowed = np.maximum(self.growth * root.real, self.neutral)
-        return (abs(change.imag) <= self.frequency * root.imag) & (abs(change.real) <= allowed)
+        small = np.maximum(root.real, (root + change).real) <= self.neutral
+        return (abs(change.imag) <= self.frequency * root.imag) & ((abs(change.real) <= allowed) | small)
 
 
 @dataclass(frozen=True)

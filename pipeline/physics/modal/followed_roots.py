@@ -1,7 +1,7 @@
 """Modes of large sparse systems from what they are like: roots and vectors of T(s) x = (s^2 M + s C + K) x = 0 nearby.
 
-Modes of about one frequency share a factor of T(s0) in single precision and a search space V (nonlinear Arnoldi; H. Voss,
-BIT 44 (2004) 387):
+Modes of about one frequency share a factor of T(s0) in single precision and a search space V (nonlinear Arnoldi; H.
+Voss, BIT 44 (2004) 387):
 
     V = [T(s0)^-1 f],    V^H T(theta) V y = 0,    V <- [V, T(s0)^-1 T(theta) V y],
 
@@ -69,7 +69,8 @@ def followed_roots(matrices: tuple, solve: Callable, sought: np.ndarray, forces:
             space.add(solve(off[:, k]))
             if turn >= _WIDENED:
                 space.add(solve(_slope(matrices, sought[k], vector[:, k])))
-    return Followed(np.where(done, root, complex(np.nan, np.nan)), space.basis[:, :len(weights)] @ weights, residual, likeness)
+    vector = space.basis[:, :len(weights)] @ weights
+    return Followed(np.where(done, root, complex(np.nan, np.nan)), vector, residual, likeness)
 
 
 class _Space:
@@ -106,7 +107,7 @@ class _Space:
 
 
 def _most_like(space, sought, motion):
-    """(root (g,), weights (m, g), likeness (g,)) of the pairs of a search space that move most like the modes sought."""
+    """(root (g,), weights (m, g), likeness (g,)) of the pairs of a search space that move most like those sought."""
     value, right = quadratic_pairs(*space.small)
     likeness = assurance(motion.T, (space.seen @ right).T)
     likeness[abs(value.imag / sought.imag[:, None] - 1) > FARTHEST] = 0.0

@@ -72,7 +72,7 @@ def factorise(matrix, solver, symmetric=True, single=False):
 
 
 def refactorise(factor, matrix):
-    """Factor of a ``matrix`` (n, n) sparse with the entries of that of ``factor``, whose place, order and kind it takes.
+    """Factor of a sparse ``matrix`` (n, n) with the entries of that of ``factor``, whose place and order it takes.
 
     Raises ConvergenceError for a singular matrix.
     """

@@ -4,9 +4,10 @@ Contact i carries N_i = A_i p(c_i) at its closure c_i = -(n_i q) - g_i, and fric
 
     K q = f + sum_i (n_i + s_i mu_i t_i) N_i.                                                                       (1)
 
-The derivative of (1) is the stiffness of the small motion. Each step is solved for by GMRES with the factor of the first
-one: contacts that open or stiffen change few directions of it. A step that leaves larger forces out of balance is halved. Other than ``equilibrium``, which condenses the bodies to their contacts, this costs as much for
-thousands of contacts as for some.
+The derivative of (1) is the stiffness of the small motion. Each step is solved for by GMRES with the factor of the
+first one: contacts that open or stiffen change few directions of it. A step that leaves larger forces out of balance is
+halved. Other than ``equilibrium``, which condenses the bodies to their contacts, this costs as much for thousands of
+contacts as for some.
 """
 
 from collections.abc import Callable
@@ -130,7 +131,7 @@ class _Equilibrium:
     def linear(self, closure):
         """(Matrix, right side) of the displacements where (1) is taken as linear about closures (c,)."""
         state, contacts = self.state(closure), self.model.contacts
-        stiffness, more = state.contact.stiffness, state.contact.stiffness * (closure + contacts.gap)
+        more = state.contact.stiffness * (closure + contacts.gap)
         coupling = model_about(self.model, state.contact).coupling(state.friction)
         rhs = self.load + self._pressed(state) - contacts.normal.T @ more - contacts.tangent.T @ (coupling * more)
         return self._about(state), rhs

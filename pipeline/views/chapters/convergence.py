@@ -97,7 +97,7 @@ def _difference(convergence, mode):
     if not convergence.found[mode]:
         return f"{where} is gone"
     if refined == root:
-        return f"{where}: {number(reduced.real, 3)} in the reduced model is {number(root.real, 3)} 1/s without reduction"
+        return f"{where}: {number(reduced.real, 3)} 1/s in the reduced model, {number(root.real, 3)} without reduction"
     stable = ", stable" if refined.real <= 0 else ""
     return f"{where}: {number(root.real, 3)} becomes {number(refined.real, 3)} 1/s{stable}"
 
