@@ -179,6 +179,4 @@ def full_matrices(body, free, solver):
     stiffness, mass = (matrix[free][:, free] for matrix in body.matrices())
     none = scipy.sparse.csr_matrix(mass.shape)
     turning = rotation(body, free, factorise(stiffness, solver)) if body.turns else (none, none)
-    factors = np.unique(body.loss_factor)
-    loss = factors[0] * stiffness if len(factors) == 1 and not body.ties else body.loss()[free][:, free]
-    return mass, (stiffness + 1j * loss).tocsr(), *turning
+    return mass, (stiffness + 1j * body.loss()[free][:, free]).tocsr(), *turning
