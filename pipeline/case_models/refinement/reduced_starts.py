@@ -15,9 +15,11 @@ from pipeline.physics.stability.growth_balance import Losses
 NEARLY, NEARLY_SHARE = 50.0, 2.5e-3
 #: margin of the roots that are looked at, whose losses are viscous; inverse iterations for the shape of each, and roots
 #: that are sought about one which these do not lead to
-_MARGIN, _INVERSE, _ABOUT = 2.0, 3, 4
+_MARGIN, _INVERSE, _ABOUT = 1.25, 3, 4
 #: the target of a search lies beside the root that it is about
-_BESIDE = 1 + 1e-6
+_BESIDE = 1 + 1e-5
+#: relative error of a root
+_ROOT = 1e-9
 #: roots closer than this share of their size are one
 _SAME = 1e-6
 
@@ -79,13 +81,13 @@ def _near(matrices, spectrum, limit):
 def _about(matrices, target, known):
     """(roots, shapes) near a ``target``: that nearest to it or, if it is ``known`` or not to be had, several."""
     mass, damping, stiffness = matrices
-    factors, vector = DenseFactors(), np.random.default_rng(1).standard_normal(len(mass)).astype(complex)
+    factors, vector = DenseFactors(np.complex64), np.random.default_rng(1).standard_normal(len(mass)).astype(complex)
     factors.renew((_BESIDE * target) ** 2 * mass + _BESIDE * target * damping + stiffness)
     for _ in range(_INVERSE):
         vector = factors.solve(vector)
         vector = vector / np.linalg.norm(vector)
     try:
-        root, vector = polished(*matrices, target, vector, factors=factors)
+        root, vector = polished(*matrices, target, vector, factors=factors, accuracy=_ROOT)
         if not _known(np.array([root]), known).any():
             return np.array([root]), vector[:, None]
     except ConvergenceError:
