@@ -1,135 +1,90 @@
-"""Stage convergence: the same brake with finer contact, meshes and bases, and what becomes of its unstable modes.
+"""Stage convergence: the same brake with finer meshes and contact, all at once, and what becomes of its unstable modes.
 
-Each refinement is a variant of the case, computed to its complex modes at one operating point.
+The finer model is one of finite elements alone: it slides steadily as it does by itself, and each mode that grows, or
+nearly does, is followed into it from its shape.
 """
 
-import math
 from typing import Literal
 
 import numpy as np
 
-from pipeline.case_models.operating_points import MODES_ALONE, middle_speed
-from pipeline.contract import ConfigError, Context, Quantity, Section, Variants, option, stage
-from pipeline.physics.stability.refinement import moved_roots
-from pipeline.products import ComplexModes, Convergence
+from pipeline.case_models.effect_block import physics_terms
+from pipeline.case_models.operating_points import middle_speed
+from pipeline.case_models.refinement.comparison import Comparison, Stated, Tolerances, causes
+from pipeline.case_models.refinement.element_modes import OperatingPoint, brake_of, element_modes
+from pipeline.case_models.refinement.finer_settings import BASES, REFINEMENTS, finer, left_out, refined
+from pipeline.case_models.refinement.reduced_starts import Starts, reduced_starts
+from pipeline.case_models.refinement.unreduced_brake import BodyMatrices, freedoms
+from pipeline.case_models.scatter import stability_settings
+from pipeline.contract import ConfigError, Context, Quantity, Section, Sections, option, stage
+from pipeline.products import ComplexModes, Convergence, Effects, FrictionMap, ReducedModel
 
-CONTACT, PAD_MESH, DISC_MESH, BASES = REFINEMENTS = "contact", "pad_mesh", "disc_mesh", "bases"
-
-#: the free disc is not compared: its rigid motions alone
-_RIGID = "100 Hz"
+#: residual of a mode on finite elements where complex modes state none
+_RESIDUAL = 1e-6
 
 
 class Settings(Section):
     """What is refined, where, and how far an unstable mode may move by it."""
 
     refinements: tuple[Literal[REFINEMENTS], ...] = option(
-        REFINEMENTS, "what is refined in turn: contact points, meshes of pads and disc, bases of the reduced model",
-        min_length=1)
+        REFINEMENTS, "what is refined, all at once: contact points, meshes of the bodies; bases: the modes without any"
+        " reduction", min_length=1)
     pressure: Quantity("Pa", gt=0) | None = option(None, "pressure of the comparison; none = the highest")
     speed: Quantity("rad/s", gt=0) | None = option(None, "speed of the drive; none = the middle one")
     contact_points: int | None = option(
-        None, "refined contact points per direction on an element face; none = one more", ge=1)
-    bases: float = option(
-        1.35, "factor on the frequency limit of the bases, and on the orders of the load patterns", gt=1)
+        None, "refined contact points per direction on an element face, where the mesh of the pads stays; none = one"
+        " more", ge=1)
+    meshes: float = option(1.5, "factor on the number of elements in each direction", gt=1)
+    bases: float = option(1.35, "without effect: the finer model has no bases", gt=1)
     frequency_tolerance: float = option(0.005, "largest change of a frequency, as a share of it", gt=0)
     growth_tolerance: float = option(0.1, "largest change of a growth rate, as a share of it", gt=0)
     neutral: Quantity("1/s", gt=0) = option("10 1/s", "a growth rate that changes by less, or is less, may")
 
 
-def _variants(sections):
-    """The refined cases, each at one operating point, without a friction sweep, in the reduced model alone.
-
-    Meshes of disc and pads from files cannot be refined here.
-    """
-    settings, brake, modes = sections["convergence"], sections["structure"], sections["complex_modes"]
-    pressure, speed = operating_point(settings, brake.pressures, modes.speeds)
-    once = {"structure.pressures": [f"{pressure!r} Pa"], "complex_modes.speeds": [f"{speed!r} rad/s"],
-            "structure.free_frequency_max": _RIGID, **MODES_ALONE}
-    changes = {CONTACT: _finer_contact(brake.pad, settings), PAD_MESH: _finer_pads(brake.pad),
-               DISC_MESH: _finer_disc(brake.disc), BASES: _larger_bases(brake, sections["reduced_model"], settings)}
-    of_files = {name for name, part in ((DISC_MESH, brake.disc), (PAD_MESH, brake.pad)) if part.mesh_file}
-    names = [name for name in settings.refinements if name not in of_files]
-    if not names:
-        raise ConfigError("convergence.refinements", "more than meshes that come from files",
+def _check(sections):
+    """Refuse refinements of nothing but meshes from files before anything is computed."""
+    settings = sections["convergence"]
+    if "structure" in sections and not refined(sections["structure"], settings.refinements):
+        raise ConfigError("convergence.refinements", "more than meshes that come from files, or bodies that are none",
                           ", ".join(settings.refinements))
-    return {name: {**once, **changes[name]} for name in names}
+
+
+@stage(check=_check, built_from=("structure",))
+def convergence(modes: ComplexModes, model: ReducedModel, friction_map: FrictionMap, effects: Effects | None,
+                sections: Sections, settings: Settings, context: Context) -> Convergence:
+    """Compare unstable modes with those of a finer model of finite elements.
+
+    All meshes and the contact are refined at once; what moves a mode beyond the tolerances is then sought by refining
+    one part at a time. The modes are those of steady sliding at one operating point. Meshes from files, elements
+    through the thickness of disc and backplates, the friction map and the law of the interface stay as they are.
+
+    Method:
+    Contact and meshes ({refinements}) were refined at once, with {meshes} times the elements in every direction. On
+    these finite elements, without modes or reduction, steady sliding was solved for by Newton's method, and each mode
+    that grows or nearly does in the reduced model was followed by nonlinear Arnoldi iteration from the motion of its
+    contacts. The result counts as converged if every unstable mode is unstable in both models, its frequency within
+    {frequency_tolerance} and its growth rate within {growth_tolerance} of it or within {neutral}, and no other is.
+    """
+    pressure, speed = operating_point(settings, modes.operating_pressure, modes.operating_speed)
+    here = _nearest(modes, pressure, speed)
+    linear, point = stability_settings(modes), (float(modes.operating_pressure[here]),
+                                                float(modes.operating_speed[here]))
+    state = int(np.argmin(abs(model.pressure - point[0])))
+    starts = reduced_starts(model, friction_map, modes.operating_root[here], state, point[1], linear)
+    root, reduced, exact = _unstable(modes, here)
+    stated = Stated.of(root, reduced, starts.root, exact and not physics_terms(effects))
+    case = OperatingPoint(*point, float(friction_map.bulk_temperature), linear)
+    models = _Models(sections["structure"], case, starts, settings, context)
+    return Convergence(
+        pressure=point[0], speed=point[1], **_compared(models, stated, settings),
+        contacts=np.count_nonzero(modes.operating_force[here] >= 0), frequency_tolerance=settings.frequency_tolerance,
+        growth_tolerance=settings.growth_tolerance, neutral=settings.neutral)
 
 
 def operating_point(settings, pressures, speeds):
     """(pressure Pa, speed rad/s) that is refined, of those of the case."""
     pressure = max(pressures) if settings.pressure is None else settings.pressure
     return pressure, middle_speed(speeds) if settings.speed is None else settings.speed
-
-
-def _finer_contact(pad, settings):
-    if pad.contact_points is not None:
-        return {"structure.pad.contact_points": settings.contact_points or pad.contact_points + 1}
-    return {"structure.pad.patches_angular": 2 * pad.patches_angular,
-            "structure.pad.patches_radial": 2 * pad.patches_radial,
-            "structure.pad.cells_per_patch": math.ceil(pad.cells_per_patch / 2)}
-
-
-def _finer_pads(pad):
-    """Twice the elements or more, by the root of two in every direction; contact points per face as they are."""
-    return {"structure.pad.cells_per_patch": _root_two(pad.cells_per_patch),
-            "structure.pad.lining_layers": _root_two(pad.lining_layers)}
-
-
-def _finer_disc(disc):
-    """Twice the elements: by the root of two around and across."""
-    return {f"structure.disc.{name}": _root_two(getattr(disc, name))
-            for name in ("web_cells", "ring_cells", "angular_cells")}
-
-
-def _root_two(count):
-    return math.ceil(math.sqrt(2) * count)
-
-
-def _larger_bases(brake, reduction, settings):
-    changes = {"structure.frequency_max": f"{settings.bases * brake.frequency_max!r} Hz",
-               "reduced_model.fixed_below": f"{settings.bases * reduction.fixed_below!r} Hz"}
-    if reduction.load_patterns is not None:
-        orders = [math.ceil(settings.bases * order) for order in reduction.load_patterns]
-        changes["reduced_model.load_patterns"] = orders
-    return changes
-
-
-@stage(variants=_variants)
-def convergence(modes: ComplexModes, refined: Variants[ComplexModes], settings: Settings,
-                context: Context) -> Convergence:
-    """Compare unstable modes with those of finer contact, meshes and bases.
-
-    A mode that is unstable in one model only counts as a difference unless it grows by no more than 'neutral'. The
-    modes are those of steady sliding at one operating point, their changes those of the reduced model; what is not
-    refined here, such as the friction map or the law of the interface, is not judged.
-
-    Method:
-    Contact points, meshes of pads and disc, and bases of the reduced model ({refinements}) were refined in turn, and
-    the complex modes at one operating point computed anew. The result counts as converged if every unstable mode is
-    unstable in all models, its frequency within {frequency_tolerance} and its growth rate within {growth_tolerance} of
-    it or within {neutral}.
-    """
-    pressure, speed = operating_point(settings, modes.operating_pressure, modes.operating_speed)
-    here = _nearest(modes, pressure, speed)
-    unstable, reduced = _unstable(modes, here)
-    found = [moved_roots(reduced, each.operating_root[0], settings.neutral) for each in refined.values()]
-    root = np.array([each.root for each in found]).reshape(len(found), len(unstable))
-    there = np.isfinite(root)
-    root = np.where(there, root + (unstable - reduced), unstable)
-    frequency = np.where(there, root.imag / unstable.imag - 1, 0.0)
-    growth = root.real - unstable.real
-    allowed = np.maximum(settings.growth_tolerance * unstable.real, settings.neutral)
-    held = there & (abs(frequency) <= settings.frequency_tolerance) & (abs(growth) <= allowed)
-    added = np.array([len(each.added) for each in found])
-    return Convergence(
-        pressure=modes.operating_pressure[here], speed=modes.operating_speed[here], refinement=list(refined),
-        root=unstable, refined_root=root, found=there.astype(int), held=held.astype(int), added=added,
-        contacts=np.count_nonzero(modes.operating_force[here] >= 0),
-        refined_contacts=[each.operating_force.shape[1] for each in refined.values()],
-        frequency_change=abs(frequency).max(initial=0.0), growth_change=abs(growth).max(initial=0.0),
-        growth_share=(abs(growth) / unstable.real).max(initial=0.0),
-        frequency_tolerance=settings.frequency_tolerance, growth_tolerance=settings.growth_tolerance,
-        neutral=settings.neutral, converged=int(held.all() and not added.any()))
 
 
 def _nearest(modes, pressure, speed):
@@ -139,7 +94,72 @@ def _nearest(modes, pressure, speed):
 
 
 def _unstable(modes, operating):
-    """Unstable roots (g,) at one operating point, strongest first, and the same in the reduced model."""
+    """Unstable roots (u,) at one operating point, strongest first, the same in the reduced model, and whether the
+    former are those of finite elements."""
     here = np.flatnonzero(modes.unstable_operating == operating)
     here = here[np.argsort(-modes.unstable_root[here].real, kind="stable")]
-    return modes.unstable_root[here], modes.unstable_reduced[here]
+    return modes.unstable_root[here], modes.unstable_reduced[here], bool((modes.unstable_residual[here] >= 0).all())
+
+
+class _Models:
+    """Finite-element models of a brake, some of its parts refined; bodies that two of them share are assembled once."""
+
+    def __init__(self, section, point, starts, settings, context):
+        self.section, self.starts, self._point, self._settings = section, starts, point, settings
+        self.refined = refined(section, settings.refinements)
+        self.meshes = tuple(name for name in self.refined if name != BASES)
+        self._matrices, self._log = BodyMatrices(context.solver), context.log
+
+    @property
+    def freedoms(self):
+        """Degrees of freedom of the case itself."""
+        return freedoms(brake_of(self.section, self._point))
+
+    def modes(self, names, chosen=None):
+        """ElementModes of the starts (g,), or those ``chosen`` alone, with parts ``names`` refined."""
+        starts = self.starts if chosen is None else _of(self.starts, chosen)
+        section = finer(self.section, names, self._settings.meshes, self._settings.contact_points)
+        tolerance = self._point.settings.residual_tolerance or _RESIDUAL
+        made = element_modes(section, self._point, starts, self._matrices, tolerance)
+        self._log(f"{', '.join(names) or 'no mesh'} refined: {made.freedoms} degrees of freedom, {made.contacts}"
+                  f" contacts, {len(made.root)} modes followed")
+        return made
+
+    def roots(self, names, chosen):
+        return self.modes(names, chosen).root
+
+
+def _of(starts, chosen):
+    """Starts of the modes ``chosen`` (m,), by rising frequency."""
+    return Starts(starts.root[chosen], starts.motion[..., chosen], starts.position, starts.body, starts.closure,
+                  starts.law, starts.friction)
+
+
+def _compared(models, stated, settings):
+    """Fields of Convergence on the finer model, and on what moved its modes."""
+    names, starts, none = models.refined, models.starts.root, np.zeros(len(stated.root), complex)
+    judged = stated.exact or not len(stated.root)
+    base = None if judged else models.modes(()).root
+    fine = models.modes(models.meshes) if models.meshes else None
+    of_bases = (stated.root - stated.reduced if base is None else stated.moved(base, None)) if BASES in names else none
+    compared = Comparison(stated, none if fine is None else stated.moved(fine.root, base), of_bases,
+                          starts if fine is None else fine.root, Tolerances.of(settings))
+    left = left_out(models.section, settings.refinements)
+    alone = stated.alone(len(starts))
+    fields = compared.fields() | {
+        "refinement": list(names), "left_out": list(left), "left_out_reason": list(left.values()),
+        "near_root": starts[alone],
+        "near_refined": np.where(np.isfinite(compared.finer), compared.finer, starts)[alone],
+        **_caused(models, compared), "freedoms": models.freedoms,
+        "refined_freedoms": models.freedoms if fine is None else fine.freedoms,
+        "refined_contacts": len(models.starts.body) if fine is None else fine.contacts}
+    return fields | {"converged": int(compared.held.all() and not fields["added"] and not left)}
+
+
+def _caused(models, compared):
+    """Fields of Convergence on what moved modes beyond the tolerances, where several parts were refined."""
+    moved = compared.moved
+    root, names, change = compared.stated.of_starts(models.starts.root)[moved], (), np.empty((0, len(moved)), complex)
+    if len(moved) and len(models.meshes) > 1:
+        names, change = causes(models.meshes, models.roots, root, moved)
+    return {"moved_root": root, "cause": list(names), "cause_change": change}

@@ -45,6 +45,8 @@ MAY_IMPORT = {
                              "pipeline.inference.priors", "pipeline.contract"},
     "pipeline.case_models.bodies": {"pipeline.case_models.bodies", "pipeline.products", "pipeline.physics",
                                     "pipeline.systems", "pipeline.contract"},
+    "pipeline.case_models.refinement": {"pipeline.case_models", "pipeline.systems", "pipeline.physics",
+                                        "pipeline.contract"},
     "pipeline.case_models.lumped": {"pipeline.contract", "pipeline.systems"},
     "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.case_models", "pipeline.products", "pipeline.effects",
                            "pipeline.inference", "pipeline.physics", "pipeline.contract"},

@@ -16,8 +16,9 @@ from pipeline.contract.settings import (
     section,
     stored,
 )
-from pipeline.contract.stage import Products, Stage, Variants, stage
+from pipeline.contract.stage import Products, Sections, Stage, Variants, stage
 
 __all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "NamedFile", "Names",
-           "ProductError", "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count",
-           "option", "part", "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]
+           "ProductError", "OneOf", "Products", "Quantities", "Quantity", "Section", "Sections", "Stage",
+           "Variants", "count", "option", "part",
+           "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]

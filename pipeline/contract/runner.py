@@ -20,7 +20,7 @@ from pipeline.contract.integrity import checksum, examined, seen
 from pipeline.contract.integrity.origin import git_commit, kernels, packages
 from pipeline.contract.integrity.verify import recorded
 from pipeline.contract.received import files, names
-from pipeline.contract.stage import Products
+from pipeline.contract.stage import Products, Sections
 
 
 @dataclass(frozen=True)
@@ -113,6 +113,9 @@ class ChainRun:
                 return None
             inputs[key] = [product.name, identity[2]]
         settings = fingerprint.settings_of(self.case.sections[stage.name])
+        for name in stage.built_from:
+            of_other = fingerprint.settings_of(self.case.sections[name])
+            settings |= {f"{name}.{key}": value for key, value in of_other.items()}
         digest = self.case.digest if stage.reads_case else ""
         code = self.code[stage.name]
         return fingerprint.Fingerprint(stage.output.version, self.solver, settings, inputs, code, digest)
@@ -297,7 +300,9 @@ class ChainRun:
         varied = {argument: {} for argument in stage.varied}
         for name, run, last, argument in self.variants(stage):
             varied[argument][name] = store.read(last.output, run.path(last.output), whole)
-        return {name: read() for name, read in readers.items()} | varied
+        given = {name: self.case.sections[name] for name in stage.built_from}
+        sections = {"sections": Sections(given)} if given else {}
+        return {name: read() for name, read in readers.items()} | varied | sections
 
 
 def _computed(task, context=None):

@@ -40,6 +40,13 @@ class Products(Mapping):
         return len(self._readers)
 
 
+class Sections(dict):
+    """name -> filled settings of previous stages, for a stage that builds anew, in another way, what these built.
+
+    ``sections: Sections`` in a stage takes those that the option ``built_from`` names; they join its hash.
+    """
+
+
 @dataclass(frozen=True)
 class Stage:
     """What the runner, the command line and the report need to know about one step."""
@@ -60,6 +67,7 @@ class Stage:
     variants: Callable  # {stage: settings} -> {name of a variant: {'stage.key': value}}
     check_variants: Callable    # ({stage: settings}, {name of a variant: {stage: settings}}) -> None; as ``check``
     further: Callable | None    # asks for variants by what came of others, see pipeline.contract.further
+    built_from: tuple   # names of the stages whose settings the argument 'sections' holds
     only_checked: Callable      # as ``variants``, of some that are refused like these and never computed
 
     def __call__(self, *args, **kwargs):
@@ -94,26 +102,28 @@ def _imported(module, name):
 def stage(run=None, **options):
     """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage.
 
-    Options: ``companions``, ``reads_case``, ``check``, ``variants``, ``check_variants``, ``further`` and
-    ``only_checked``, see Stage.
+    Options: ``companions``, ``reads_case``, ``check``, ``variants``, ``check_variants``, ``further``, ``built_from``
+    and ``only_checked``, see Stage.
     """
     return partial(_stage, **options) if run is None else _stage(run, **options)
 
 
 def _stage(run, *, companions=None, reads_case=False, check=lambda sections: None, variants=None,
-           check_variants=lambda sections, varied: None, further=None, only_checked=lambda sections: {}):
+           check_variants=lambda sections, varied: None, further=None, built_from=(), only_checked=lambda sections: {}):
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
     reads_all = hints.get("products") is Products and hints.pop("products") is Products
+    builds = hints.get("sections") is Sections and hints.pop("sections") is Sections
     varied = {name: get_args(hints.pop(name))[0] for name in list(hints) if get_origin(hints[name]) is Variants}
     inputs = {name: _options(hint) for name, hint in hints.items()}
     fits = (is_product(output) and isinstance(settings, type) and issubclass(settings, Section)
             and context is Context and all(inputs.values()) and all(map(is_product, varied.values()))
-            and bool(varied) == (variants is not None))
+            and bool(varied) == (variants is not None) and builds == bool(built_from))
     if not fits:
         raise ProductError(f"stage {run.__name__}: annotate the products read, 'settings', 'context' and"
-                           f" the product written; Variants of a product go with 'variants'")
+                           f" the product written; Variants of a product go with 'variants', Sections with"
+                           " 'built_from'")
     doc, file = inspect.getdoc(run) or "", run.__module__.rpartition(".")[2]
     if not file == run.__name__ == output.name or "Method:" not in doc:
         raise ProductError(f"stage {run.__name__}: file, function and product share one name"
@@ -122,7 +132,7 @@ def _stage(run, *, companions=None, reads_case=False, check=lambda sections: Non
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
     return Stage(run.__name__, run, inputs, optional, reads_all, output, settings, summary.strip().splitlines()[0],
                  " ".join(method.split()), companions, reads_case, check, varied,
-                 variants or (lambda sections: {}), check_variants, further, only_checked)
+                 variants or (lambda sections: {}), check_variants, further, tuple(built_from), only_checked)
 
 
 def _options(hint):

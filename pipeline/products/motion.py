@@ -50,27 +50,37 @@ class ComplexModes:
     squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal; lower ones groan or moan")
 
 
-@product(version=1)
+@product(version=2)
 class Convergence:
-    """Unstable modes of one operating point beside those of refined models."""
+    """Unstable modes of one operating point beside those of a finer model, and what moved them."""
 
     pressure: Array = quantity("Pa", "", "nominal pressure of the operating point")
     speed: Array = quantity("rad/s", "", "speed of the drive")
-    refinement: Array = text("refinement", "what is refined: contact, pad_mesh, disc_mesh or bases")
+    refinement: Array = text("refinement", "what is refined, all at once: contact, pad_mesh, disc_mesh, caliper_mesh, bracket_mesh, piston_mesh or bases")
+    left_out: Array = text("left_out", "what of the brake is not refined")
+    left_out_reason: Array = text("left_out", "why not")
     root: Array = quantity("1/s", "unstable", "unstable roots of the case, strongest first", complex)
-    refined_root: Array = quantity("1/s", "refinement unstable", "the same in the refined models; that of the case where not found", complex)
-    found: Array = count("refinement unstable", "1 where the refined model has a root within 2 % of the frequency")
-    held: Array = count("refinement unstable", "1 where it moved by no more than the tolerances")
-    added: Array = count("refinement", "unstable modes that only the refined model has, beyond neutral ones")
+    reduced_root: Array = quantity("1/s", "unstable", "the same in the reduced model", complex)
+    refined_root: Array = quantity("1/s", "unstable", "the same in the finer model; that of the case where not found", complex)
+    found: Array = count("unstable", "1 where the finer model has a mode that moves like it near its frequency")
+    held: Array = count("unstable", "1 where it moved by no more than the tolerances")
+    near_root: Array = quantity("1/s", "near", "roots of the reduced model that nearly grow and were followed too", complex)
+    near_refined: Array = quantity("1/s", "near", "the same in the finer model; that of the reduced one where not found", complex)
+    added: Array = count("", "modes among these that grow in the finer model, beyond neutral ones")
+    moved_root: Array = quantity("1/s", "moved", "roots of the case that move beyond the tolerances, or grow in the finer model alone", complex)
+    cause: Array = text("cause", "what is refined by itself then; model: no reduction, on the meshes of the case")
+    cause_change: Array = quantity("1/s", "cause moved", "change of the root by it; 0 where the mode is gone", complex)
+    freedoms: Array = count("", "degrees of freedom of the finite elements of the case")
+    refined_freedoms: Array = count("", "of the finer model")
     contacts: Array = count("", "contact points of the case")
-    refined_contacts: Array = count("refinement", "contact points of the refined model")
+    refined_contacts: Array = count("", "of the finer model")
     frequency_change: Array = quantity("1", "", "largest change of a frequency, as a share of it")
     growth_change: Array = quantity("1/s", "", "largest change of a growth rate")
     growth_share: Array = quantity("1", "", "largest change of a growth rate, as a share of it")
     frequency_tolerance: Array = quantity("1", "", "largest change of a frequency that counts as converged")
     growth_tolerance: Array = quantity("1", "", "largest change of a growth rate that does, as a share of it")
     neutral: Array = quantity("1/s", "", "change of a growth rate that always does")
-    converged: Array = count("", "1 if all unstable modes are those of all refined models within the tolerances")
+    converged: Array = count("", "1 if everything is refined and all unstable modes stay within the tolerances")
 
 
 @product(version=3)

@@ -119,7 +119,7 @@ def full_model(system, solver):
     """
     bodies = [elastic_body(system, name) for name in system.body_name]
     free = [free_freedoms(len(b.node), b.supported) for b in bodies]
-    parts = zip(*(_full_matrices(*each, solver) for each in zip(bodies, free, strict=True)), strict=True)
+    parts = zip(*(full_matrices(*each, solver) for each in zip(bodies, free, strict=True)), strict=True)
     names, sizes = ("mass", "stiffness", "gyroscopic", "centrifugal"), [len(each) for each in free]
     matrices = {name: scipy.sparse.block_diag(part, format="csr") for name, part in zip(names, parts, strict=True)}
     fields, name = row_fields(system), INPUTS[type(system)]
@@ -137,7 +137,7 @@ def full_model(system, solver):
                           system.contact_stiffness[0], np.zeros(len(area))),
         input_name=tuple(f"{name}_{k + 1}" for k in range(inputs.shape[0])), input_rows=inputs,
         sensor_name=tuple(system.sensor_name), sensor_rows=sensors, speed=0.0)
-    return _with_fluid(model, system) if has_fluid(system) else model
+    return with_fluid(model, system) if has_fluid(system) else model
 
 
 def has_fluid(system):
@@ -145,8 +145,9 @@ def has_fluid(system):
     return isinstance(system, Structure) and len(system.fluid_stiffness) > 0
 
 
-def _with_fluid(model, structure):
-    """A sparse SlidingModel with the fluid of the lines, masses on which the columns in the bores end."""
+def with_fluid(model, structure):
+    """A sparse SlidingModel with the fluid of the lines, masses on which the columns in the bores end; ``structure``:
+    a product Structure, or another with its fields of the fluid."""
     beside, count = {"mass": structure.line_inertia, "damping": structure.line_drag}, len(structure.line_inertia)
     matrices = {name: scipy.sparse.block_diag([getattr(model, name), np.diag(beside.get(name, np.zeros(count)))], "csr")
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
@@ -173,8 +174,8 @@ def _widened(rows, count):
     return scipy.sparse.hstack([rows, scipy.sparse.csr_matrix((rows.shape[0], count))], "csr")
 
 
-def _full_matrices(body, free, solver):
-    """Mass, complex stiffness, gyroscopic and centrifugal matrix of an ElasticBody in its freedoms ``free``."""
+def full_matrices(body, free, solver):
+    """Mass, complex stiffness, gyroscopic and centrifugal matrix of an ElasticBody in its freedoms ``free``, sparse."""
     stiffness, mass = (matrix[free][:, free] for matrix in body.matrices())
     none = scipy.sparse.csr_matrix(mass.shape)
     turning = rotation(body, free, factorise(stiffness, solver)) if body.turns else (none, none)

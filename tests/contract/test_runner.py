@@ -202,12 +202,24 @@ def test_an_error_names_the_variant_that_it_is_of(varied, monkeypatch):
         job(varied).execute(Context())
 
 
+def test_settings_of_stages_that_another_is_built_from_reach_it_and_join_its_hash(config):
+    run = job(config)
+    run.execute(Context())
+    first, stage = run.case.stages[0], replace(run.case.stages[1], built_from=(run.case.stages[0].name,))
+    plain, joined = (run.fingerprint(each).settings for each in (run.case.stages[1], stage))
+    known = fingerprint.settings_of(run.case.sections[first.name])
+    assert known and joined == plain | {f"{first.name}.{key}": value for key, value in known.items()}
+    assert run._inputs(stage, False)["sections"] == {first.name: run.case.sections[first.name]}
+    assert "sections" not in run._inputs(run.case.stages[1], False)
+
+
 def test_variants_of_the_default_case_go_to_other_processes():
     """With all that was filled in here, and back: the same settings."""
-    given = case.load(ROOT / "configs" / "disc_brake.yaml", stages.CHAINS, stages.load)
+    given = case.load(ROOT / "configs" / "disc_brake.yaml", stages.CHAINS, stages.load).varied({
+        "countermeasures.variants": {"shim": {"change": {"structure.pad.backplate_loss_factor": 0.1}}}})
     run = runner.ChainRun(given, Path("nowhere"), "superlu")
-    varied = run.variants(next(stage for stage in given.stages if stage.name == "convergence"))
-    assert len(varied) == 4
+    varied = run.variants(next(stage for stage in given.stages if stage.name == "countermeasures"))
+    assert {name for name, *_ in varied} == {"countermeasures.shim"}
     for _, variant, last, _ in varied:
         here = variant.case.sections
         there, same = pickle.loads(pickle.dumps((variant, last)))

@@ -30,6 +30,8 @@ def test_refuses_an_incomplete_signature_or_another_name():
         stage(source)
     with pytest.raises(ProductError, match="share one name"):
         stage(other)
+    with pytest.raises(ProductError, match="Sections with 'built_from'"):
+        stage(other, built_from=("source",))
 
 
 @pytest.mark.parametrize("where, told", [

@@ -1,105 +1,119 @@
-"""Stage convergence: what is refined, and what counts as converged."""
+"""Stage convergence: what is refined at once, what counts as converged, and when causes are sought."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from pipeline.contract import ConfigError, Section
-from stages.convergence import REFINEMENTS, Settings, convergence
-from stages.reduced_model import Settings as Reduction
+from pipeline.case_models.refinement.element_modes import ElementModes
+from pipeline.case_models.refinement.finer_settings import REFINEMENTS, finer
+from pipeline.contract import ConfigError, store, stored
+from pipeline.products import Convergence
+from stages import convergence as stage
+from stages.complex_modes import Settings as Linear
+from stages.convergence import Settings, convergence
 from stages.structure import Settings as Brake
+from tests.case_models.refinement.tiny_brake import SECTION
+from tests.stages.small_brake import small_brake, small_map
 from tests.views import products_for_views as small
 
-
-class Speeds(Section):
-    """Stands for the section complex_modes."""
-
-    speeds: tuple[float, ...] = (8.5, 10.25, 12.0)
-
-
-def variants(brake, reduction=None, **settings):
-    return convergence.variants({"convergence": Settings(**settings), "structure": brake,
-                                 "reduced_model": reduction or Reduction(), "complex_modes": Speeds()})
-
-
-def test_everything_is_refined_in_turn_at_one_operating_point():
-    brake = Brake.model_validate({"pad": {"contact_points": 3}})
-    made = variants(brake, Reduction(load_patterns=(10, 6)))
-    assert tuple(made) == REFINEMENTS
-    for changes in made.values():
-        assert changes["structure.pressures"] == ["3000000.0 Pa"] and changes["complex_modes.speeds"] == ["10.25 rad/s"]
-    assert made["contact"]["structure.pad.contact_points"] == 4
-    assert made["pad_mesh"]["structure.pad.cells_per_patch"] == made["pad_mesh"]["structure.pad.lining_layers"] == 3
-    assert "structure.pad.contact_points" not in made["pad_mesh"]      # as many on each of more faces
-    assert made["disc_mesh"]["structure.disc.angular_cells"] == 128
-    assert made["bases"]["structure.frequency_max"] == "27000.0 Hz"
-    assert made["bases"]["reduced_model.load_patterns"] == [14, 9]
-
-
-def test_the_mesh_of_a_disc_from_a_file_is_not_refined(tmp_path):
-    (tmp_path / "disc.inp").write_text("")
-    brake = Brake.model_validate({"disc": {"mesh_file": str(tmp_path / "disc.inp")}})
-    assert tuple(variants(brake)) == ("contact", "pad_mesh", "bases")
-    with pytest.raises(ConfigError, match="convergence.refinements: expected more than meshes that come from files"):
-        variants(brake, refinements=("disc_mesh",))
-
-
-def test_contact_patches_are_refined_without_the_mesh():
-    made = variants(Brake(), refinements=("contact",), pressure="1 MPa", speed="12 rad/s")
-    assert made == {"contact": {
-        "structure.pressures": ["1000000.0 Pa"], "complex_modes.speeds": ["12.0 rad/s"],
-        "structure.free_frequency_max": "100 Hz", "complex_modes.friction_steps": 2,
-        "complex_modes.residual_tolerance": None, "complex_modes.followed": 0,
-        "structure.pad.patches_angular": 12, "structure.pad.patches_radial": 6, "structure.pad.cells_per_patch": 1}}
+MESHES = ("contact", "pad_mesh", "disc_mesh", "caliper_mesh")
 
 
 @pytest.fixture
 def modes():
-    return small.complex_modes()
+    return replace(small.complex_modes(), settings=np.array(stored(Linear())))
 
 
-def refined(modes, factor=1.0, shift=0.0, speed=10.25):
-    """The complex modes at 3 MPa and ``speed`` alone, with scaled roots."""
-    here = np.flatnonzero((modes.operating_pressure == 3e6) & (modes.operating_speed == speed))
-    root = (modes.operating_root[here] * factor) + shift
-    return replace(modes, operating_root=root, operating_force=modes.operating_force[here],
-                   **{f"operating_{name}": getattr(modes, f"operating_{name}")[here]
-                      for name in ("pressure", "speed", "friction", "open")})
+class Bench:
+    """Stands for the models of elements: roots of the case moved by ``changes`` {part refined: {mode: change}}."""
+
+    def __init__(self, monkeypatch, modes, changes=None, others=()):
+        here = np.flatnonzero((modes.operating_pressure == 3e6) & (modes.operating_speed == 10.25))[0]
+        unstable = np.flatnonzero(modes.unstable_operating == here)
+        self.root = modes.unstable_reduced[unstable]
+        self.stated, self.changes, self.asked = modes.unstable_root[unstable], changes or {}, []
+        self.starts = SimpleNamespace(root=np.append(self.root, others), body=np.zeros(16))
+        monkeypatch.setattr(stage, "reduced_starts", lambda *_: self.starts)
+        monkeypatch.setattr(stage, "_of", lambda starts, chosen: SimpleNamespace(root=starts.root[chosen]))
+        monkeypatch.setattr(stage, "element_modes", self.modes)
+        monkeypatch.setattr(stage, "finer", lambda brake, names, *_: names)
+
+    def modes(self, names, point, starts, matrices, tolerance):
+        self.asked.append(tuple(names))
+        root = np.append(self.stated, self.starts.root[len(self.root):])
+        for name in names:
+            for mode, change in self.changes.get(name, {}).items():
+                root[mode] += change
+        chosen = [int(np.argmin(abs(self.starts.root - each))) for each in starts.root]
+        return ElementModes(root[chosen], np.ones(len(chosen)), 1000 + 100 * len(names), 16)
 
 
-def test_small_changes_are_converged_and_told(modes):
-    made = convergence(modes, {"contact": refined(modes, 1 + 1e-3), "bases": refined(modes, shift=-3)},
-                       settings=Settings())
-    assert made.converged == 1 and made.held.all() and list(made.refinement) == ["contact", "bases"]
-    assert made.frequency_change == pytest.approx(1e-3) and made.growth_change == pytest.approx(3.0)
-    assert made.growth_share == pytest.approx(3.0 / made.root[0].real) and made.contacts == 12
+def run(modes, tmp_path, **settings):
+    """The product as it is read again, and the sections that it was made with."""
+    settings = {"refinements": ("bases", *MESHES), **settings}
+    exact = replace(modes, unstable_residual=np.full(len(modes.unstable_root), 1e-8))
+    product = convergence(exact, small_brake(), small_map(), None, sections={"structure": SECTION},
+                          settings=Settings(**settings))
+    store.write(product, tmp_path / "convergence.h5", {})
+    return store.read(Convergence, tmp_path / "convergence.h5")
 
 
-def test_changes_are_those_of_the_reduced_model(modes):
-    """Roots of the full matrices stay apart from those of the reduced model, which alone is refined."""
-    full = replace(modes, unstable_reduced=modes.unstable_root, unstable_root=modes.unstable_root - 6 + 2j)
-    made = convergence(full, {"bases": refined(modes, shift=-3)}, settings=Settings())
-    np.testing.assert_allclose(made.refined_root - made.root, -3.0)
-    assert made.root[0] in full.unstable_root and made.growth_change == pytest.approx(3.0)
+def test_everything_is_refined_at_once_and_nothing_by_itself_where_modes_stay(modes, monkeypatch, tmp_path):
+    bench = Bench(monkeypatch, modes, {"disc_mesh": {0: -2 + 1j}, "pad_mesh": {0: 1.0}}, [-20 + 3e4j])
+    made = run(modes, tmp_path)
+    assert bench.asked == [MESHES] and made.converged == 1 and made.held.all() and not len(made.cause)
+    np.testing.assert_allclose(made.refined_root, np.sort_complex(made.root + [-1 + 1j])[::-1])
+    assert list(made.refinement) == ["bases", *MESHES] and not len(made.left_out)
+    assert made.growth_change == pytest.approx(1.0) and list(made.near_root) == [-20 + 3e4j]
+    assert (made.freedoms, made.refined_freedoms) == (made.freedoms, 1400) and made.refined_contacts == 16
 
 
-@pytest.mark.parametrize("change", [{"factor": 1.006}, {"shift": -30}, {"factor": 1.05}], ids=["f", "growth", "gone"])
-def test_large_changes_are_not(modes, change):
-    made = convergence(modes, {"contact": refined(modes), "disc_mesh": refined(modes, **change)}, settings=Settings())
-    assert made.converged == 0 and made.held[0].all() and not made.held[1].any()
-    assert made.found[1].all() == (change != {"factor": 1.05})
+@pytest.mark.parametrize("change, gone", [(-60.0, 0), (complex(0, 1e3), 0), (complex(np.nan, np.nan), 1)])
+def test_what_moved_a_mode_too_far_is_sought_part_by_part(modes, monkeypatch, tmp_path, change, gone):
+    bench = Bench(monkeypatch, modes, {"disc_mesh": {0: change}, "pad_mesh": {0: 1.0}})
+    made = run(modes, tmp_path)
+    assert bench.asked == [MESHES, (), *((name,) for name in MESHES)]
+    assert made.converged == 0 and not made.held[0] and made.found[0] == 1 - gone
+    assert list(made.cause) == ["model", *MESHES] and len(made.moved_root) == 1
+    expected = [0, 0, 1, 0 if gone else change, 0]
+    np.testing.assert_allclose(made.cause_change[:, 0], expected)
 
 
-def test_a_further_unstable_mode_is_not_converged(modes):
-    more = refined(modes)
-    root = more.operating_root.copy()
-    root[0, 0] = 50 + 1j * root[0, 0].imag
-    made = convergence(modes, {"contact": replace(more, operating_root=root)}, settings=Settings())
-    assert made.converged == 0 and list(made.added) == [1] and made.held.all()
+def test_a_mode_that_only_the_finer_model_has_is_not_converged(modes, monkeypatch, tmp_path):
+    bench = Bench(monkeypatch, modes, {"caliper_mesh": {-1: 45.0}}, [-20 + 3e4j])
+    made = run(modes, tmp_path)
+    assert made.added == 1 and made.converged == 0 and made.held.all()
+    assert list(made.moved_root) == [-20 + 3e4j] and bench.asked[-1] == ("caliper_mesh",)
+    assert abs(made.cause_change).argmax() == list(made.cause).index("caliper_mesh")
 
 
-def test_stable_brakes_converge_too():
-    still = small.complex_modes(stable=True)
-    made = convergence(still, {"contact": refined(still)}, settings=Settings())
-    assert made.converged == 1 and not len(made.root) and made.growth_share == 0
+def test_bases_alone_cost_nothing_and_are_never_called_converged(modes, monkeypatch, tmp_path):
+    bench = Bench(monkeypatch, modes)
+    made = run(replace(modes, unstable_root=modes.unstable_root - 4), tmp_path, refinements=("bases",))
+    assert not bench.asked and made.held.all() and made.converged == 0 and made.growth_change == pytest.approx(4)
+    assert list(made.left_out) == list(MESHES) and set(made.left_out_reason) == {"was not asked for"}
+
+
+def test_roots_of_the_reduced_model_are_compared_by_the_change_between_two_models(modes, monkeypatch, tmp_path):
+    bench = Bench(monkeypatch, modes, {"pad_mesh": {0: -3.0}})
+    bench.stated = bench.root + 50 + 7j      # elements of the same meshes say something else: not judged without bases
+    product = convergence(modes, small_brake(), small_map(), None, sections={"structure": SECTION},
+                          settings=Settings(refinements=MESHES))
+    assert bench.asked[:2] == [(), MESHES] and product.held.all()
+    assert product.growth_change == pytest.approx(3)
+
+
+def test_old_cases_are_read_and_refine_what_they_name():
+    old = Settings.model_validate({"refinements": ["contact", "pad_mesh", "disc_mesh", "bases"], "bases": 1.5})
+    assert finer(SECTION, old.refinements, old.meshes).caliper == SECTION.caliper
+    assert Settings().refinements == REFINEMENTS
+
+
+def test_meshes_from_files_alone_are_refused_before_anything_is_computed(tmp_path):
+    (tmp_path / "disc.inp").write_text("")
+    brake = Brake.model_validate({"disc": {"mesh_file": str(tmp_path / "disc.inp")}})
+    with pytest.raises(ConfigError, match="convergence.refinements: expected more than meshes that come from files"):
+        convergence.check({"convergence": Settings(refinements=("disc_mesh",)), "structure": brake})
+    convergence.check({"convergence": Settings(), "structure": brake})

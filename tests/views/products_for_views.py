@@ -328,19 +328,22 @@ def _path(unstable):
 
 
 def convergence(converged=True):
-    """Three unstable modes, four refinements; if not converged, the second mode vanishes with a finer contact."""
+    """Three unstable modes beside a finer model; if not converged, the second is gone there, the first grows less."""
     root = np.array([360 + 50.5e3j, 220 + 68.2e3j, 8 + 47.2e3j])
-    refined = root * (1 + 1e-3 * np.array([[1], [-2], [3], [1j]]))
-    found = np.ones((4, 3), int)
+    refined, found = root * (1 + 1e-3 * np.array([1, -2, 3])), np.ones(3, int)
     if not converged:
-        refined[0, 1], found[0, 1], refined[2, 0] = root[1], 0, 250 + 50.4e3j
-    held = found.copy()
-    held[2, 0] = int(converged)
+        refined[:2], found[1] = (250 + 50.4e3j, root[1]), 0
+    moved = np.zeros(0) if converged else root[:2]
     return filled(
-        Convergence, pressure=3e6, speed=10.25, refinement=["contact", "pad_mesh", "disc_mesh", "bases"], root=root,
-        refined_root=refined, found=found, held=held, added=[0, 0 if converged else 1, 0, 0], contacts=1296,
-        refined_contacts=[2304, 2304, 1296, 1296], frequency_change=0.003, growth_change=50.5, growth_share=0.03,
-        frequency_tolerance=0.005, growth_tolerance=0.1, neutral=10.0, converged=int(converged))
+        Convergence, pressure=3e6, speed=10.25,
+        refinement=["contact", "pad_mesh", "disc_mesh", "caliper_mesh", "bracket_mesh", "piston_mesh", "bases"],
+        left_out=[], left_out_reason=[], root=root, reduced_root=root - 3, refined_root=refined, found=found,
+        held=[int(converged), found[1], 1], near_root=[-12 + 40e3j], near_refined=[-11 + 40.1e3j],
+        added=0 if converged else 1, moved_root=moved, cause=[] if converged else ["model", "bracket_mesh"],
+        cause_change=np.array([[3, 3], [-110 - 100j, 0]])[:, :len(moved)] if not converged else np.empty((0, 0)),
+        freedoms=62442, refined_freedoms=146382, contacts=576, refined_contacts=1296, frequency_change=0.003,
+        growth_change=50.5, growth_share=0.03, frequency_tolerance=0.005, growth_tolerance=0.1, neutral=10.0,
+        converged=int(converged))
 
 
 def limit_cycle(settled=True):

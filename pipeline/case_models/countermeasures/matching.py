@@ -112,7 +112,7 @@ def _new(operating, base, points, unstable, shape, convergence):
 
 
 def growth_error(convergence, root):
-    """By how much (1/s) the refined models of a product Convergence move the growth rate of an unstable ``root``.
+    """By how much (1/s) the finer model of a product Convergence, or the reduction, moves the growth of a ``root``.
 
     That of the mode of its frequency there; of others the largest share, or the tolerance where all is converged.
     """
@@ -120,8 +120,8 @@ def growth_error(convergence, root):
     near = np.flatnonzero(abs(convergence.root.imag / root.imag - 1) <= _NEAR)
     if len(near):
         mode = near[np.argmin(abs(convergence.root[near] - root))]
-        moved = abs(convergence.refined_root[:, mode].real - convergence.root[mode].real)
-        lost = convergence.found[:, mode] == 0
-        return float(max(neutral, np.where(lost, abs(convergence.root[mode].real), moved).max(initial=0.0)))
+        here, *others = (getattr(convergence, name)[mode].real for name in ("root", "refined_root", "reduced_root"))
+        lost = abs(here) if convergence.found[mode] == 0 else 0.0
+        return float(max(neutral, lost, *(abs(other - here) for other in others)))
     share = convergence.growth_tolerance if convergence.converged else np.minimum(convergence.growth_share, 1.0)
     return float(max(neutral, float(share) * growth))

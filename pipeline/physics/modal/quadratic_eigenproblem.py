@@ -76,6 +76,17 @@ def _crowded(roots, every_root):
     return bool((distance[:, 1:2] <= _APART * abs(roots)[:, None]).any() or not roots.all())
 
 
+def quadratic_pairs(mass, damping, stiffness):
+    """(roots (2 n,) 1/s, vectors (n, 2 n) of unit length) of (s^2 M + s C + K) x = 0 with general complex (n, n)."""
+    n = len(mass)
+    pace = np.sqrt(np.linalg.norm(stiffness) / np.linalg.norm(mass))
+    companion = np.zeros((2 * n, 2 * n), complex)
+    companion[:n, n:] = pace * np.eye(n)
+    companion[n:] = -np.linalg.solve(mass, np.hstack((stiffness / pace, damping)))
+    roots, vectors = scipy.linalg.eig(companion, overwrite_a=True, check_finite=False)
+    return roots, vectors[:n] / np.linalg.norm(vectors[:n], axis=0)
+
+
 def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, accuracy=_POLISHED):
     """(root 1/s, vector (n,)) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair.
 

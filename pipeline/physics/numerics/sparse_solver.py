@@ -70,6 +70,14 @@ def factorise(matrix, solver, symmetric=True, single=False):
     return factor
 
 
+def refactorise(factor, matrix):
+    """Factor of a sparse ``matrix`` (n, n) with the entries of that of ``factor``, whose place and order it takes.
+
+    Raises ConvergenceError for a singular matrix.
+    """
+    return factor.of_another(scipy.sparse.csr_matrix(matrix))
+
+
 class _Factor:
     """Shared handling of right-hand sides; a subclass solves (n, m) arrays of the factor's type."""
 
@@ -96,7 +104,7 @@ class _SuperLU(_Factor):
     them in the order of a symmetric pattern, which those of bodies in contact nearly have."""
 
     def __init__(self, matrix, symmetric, single):
-        self.dtype = _kind(matrix, single)
+        self.dtype, self._symmetric, self._single = _kind(matrix, single), symmetric, single
         columns = matrix.astype(self.dtype).tocsc()
         for order, threshold in _ORDERS[symmetric]:
             self._factor = _lu(columns, order, threshold)
@@ -104,6 +112,9 @@ class _SuperLU(_Factor):
                 break
         if symmetric and self.dtype == np.float64:
             self.negative = self._inertia()
+
+    def of_another(self, matrix):
+        return _SuperLU(matrix, self._symmetric, self._single)
 
     def _inertia(self):
         """Negative pivots; they are those of an L D L^T only while no row was exchanged."""
@@ -128,7 +139,7 @@ def _lu(columns, order, threshold):
 
 class _Pardiso(_Factor):
     def __init__(self, matrix, symmetric, single):
-        complex_, self.dtype = np.iscomplexobj(matrix), _kind(matrix, single)
+        complex_, self.dtype, self._symmetric = np.iscomplexobj(matrix), _kind(matrix, single), symmetric
         stored = (_upper_triangle(matrix) if symmetric else matrix).astype(self.dtype, copy=False)
         self._call = _PardisoCall(stored, _MATRIX_TYPE[complex_, symmetric])
         weakref.finalize(self, self._call, _RELEASE)
@@ -138,6 +149,14 @@ class _Pardiso(_Factor):
         self._call(_FACTORISE)
         if symmetric and self.dtype == np.float64:
             self.negative = int(self._call.parameter[22])
+
+    def of_another(self, matrix):
+        """The order of columns, which takes as long as half of a factor, is that of the matrix before."""
+        matrix.sort_indices()
+        stored = _upper_triangle(matrix) if self._symmetric else matrix
+        self._call.matrix = stored.astype(self.dtype, copy=False)
+        self._call(_FACTORISE)
+        return self
 
     def _solve(self, columns, adjoint):
         self._call.parameter[_ADJOINT] = int(adjoint)

@@ -124,12 +124,13 @@ def _headline(products):
     return "No squeal predicted", "quiet"
 
 
-def _onset(modes, convergence, cycle):
+def _onset(modes, refined, cycle):
     """Headline of a two-way analysis: whether the brake squeals or, without a simulation, whether squeal can start; and
     whether that is converged."""
     points, squeals = len(modes.operating_speed), squealing(modes)
     starts = len(np.unique(modes.unstable_operating[squeals]))
-    doubt = "" if convergence.converged.item() else " (not converged)"
+    doubt = "" if refined.converged.item() else " (converged as far as refined)"
+    doubt = doubt if not doubt or convergence.unjudged(refined) else " (not converged)"
     if not starts and len(squeals):
         lower = quantity(modes.unstable_root[0].imag / TWO_PI, "Hz", 3)
         return f"No squeal, but groan or moan at {lower}{doubt}", "warning"

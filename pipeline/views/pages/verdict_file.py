@@ -12,7 +12,7 @@ from pipeline.views.chapters.models.noise_matrix_tables import differing
 from pipeline.views.chapters.pad_motion import open_balance
 from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair, squealing
 
-SCHEMA = "brakechain-verdict/1"
+SCHEMA = "brakechain-verdict/2"
 TWO_PI = 2.0 * np.pi
 
 
@@ -160,15 +160,21 @@ def _named(names, values):
 
 
 def _convergence(refined):
-    per_refinement = {}
-    for r, name in enumerate(refined.refinement):
-        modes = [{"frequency": root.imag / TWO_PI, "frequency_change": float(new.imag / root.imag - 1),
-                  "growth_change": float(new.real - root.real), "found": bool(found)}
-                 for root, new, found in zip(refined.root, refined.refined_root[r], refined.found[r], strict=True)]
-        per_refinement[str(name)] = {"modes": modes, "added_modes": int(refined.added[r])}
+    """What was refined, what became of each unstable mode, and what moved those that did not stay."""
+    modes = [{"frequency": root.imag / TWO_PI, "growth_rate": float(root.real),
+              "frequency_change": float(new.imag / root.imag - 1), "growth_change": float(new.real - root.real),
+              "reduction_change": float(root.real - reduced.real), "found": bool(found), "held": bool(held)}
+             for root, reduced, new, found, held in zip(refined.root, refined.reduced_root, refined.refined_root,
+                                                        refined.found, refined.held, strict=True)]
+    causes = {str(name): [float(each.real) for each in change]
+              for name, change in zip(refined.cause, refined.cause_change, strict=True)}
     return {"converged": bool(refined.converged.item()), "pressure": float(refined.pressure),
             "speed": float(refined.speed), "largest_frequency_change": float(refined.frequency_change),
-            "largest_growth_change": float(refined.growth_change), "refinements": per_refinement}
+            "largest_growth_change": float(refined.growth_change), "refined": list(map(str, refined.refinement)),
+            "not_refined": dict(zip(map(str, refined.left_out), map(str, refined.left_out_reason), strict=True)),
+            "degrees_of_freedom": [int(refined.freedoms), int(refined.refined_freedoms)],
+            "contacts": [int(refined.contacts), int(refined.refined_contacts)], "modes": modes,
+            "added_modes": int(refined.added), "growth_change_by": causes}
 
 
 def _countermeasures(product):
@@ -195,5 +201,4 @@ def _warnings(modes, refined):
         told.append(statement(refined))
     if modes is not None and refined is None:
         told.append("convergence was not examined")
-    missing = [name for name in WORDS if refined is not None and name not in list(map(str, refined.refinement))]
-    return told + [f"not refined: {WORDS[name]}" for name in missing]
+    return told + [f"not refined: {WORDS[str(name)]}" for name in (() if refined is None else refined.left_out)]

@@ -77,10 +77,15 @@ def test_roots_of_the_full_matrices_move_those_after_alike():
     np.testing.assert_allclose([row.after for row in rows], [row.before for row in rows], rtol=1e-9)
 
 
+def test_error_of_a_growth_rate_holds_that_of_the_reduction():
+    known = convergence(root=[100 + 5e4j], reduced_root=[92 + 5e4j], refined_root=[103 + 5e4j], found=[1], held=[1])
+    assert growth_error(known, 100 + 5e4j) == pytest.approx(8)
+
+
 def test_error_of_a_growth_rate_is_that_of_its_mode():
-    known = convergence(root=[100 + 5e4j, 40 + 6e4j], refined_root=[[130 + 5e4j, 40 + 6e4j]], found=[[1, 0]],
-                        held=[[0, 0]], growth_share=0.3, converged=0)
+    known = convergence(root=[100 + 5e4j, 40 + 6e4j], refined_root=[130 + 5e4j, 40 + 6e4j], found=[1, 0],
+                        held=[0, 0], growth_share=0.3, converged=0)
     assert growth_error(known, 90 + 5.05e4j) == pytest.approx(30)
-    assert growth_error(known, 30 + 6e4j) == pytest.approx(40)      # it is gone in a refined model
+    assert growth_error(known, 30 + 6e4j) == pytest.approx(40)      # it is gone in the finer model
     assert growth_error(known, 50 + 2e4j) == pytest.approx(0.3 * 50)
     assert growth_error(convergence(), 50 + 2e4j) == pytest.approx(5) and growth_error(convergence(), 2 + 2e4j) == 1

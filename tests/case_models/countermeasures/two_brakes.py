@@ -35,7 +35,9 @@ def convergence(**given):
     """Nothing known but a tolerance of a tenth and of 1 1/s."""
     none = np.empty(0, complex)
     return Convergence(**{
-        "pressure": 1e6, "speed": 8.0, "refinement": ["bases"], "root": none, "refined_root": none[None],
-        "found": np.zeros((1, 0), int), "held": np.zeros((1, 0), int), "added": [0], "contacts": 1,
-        "refined_contacts": [1], "frequency_change": 0.0, "growth_change": 0.0, "growth_share": 0.0,
-        "frequency_tolerance": 0.005, "growth_tolerance": 0.1, "neutral": 1.0, "converged": 1, **given})
+        "pressure": 1e6, "speed": 8.0, "refinement": ["bases"], "left_out": [], "left_out_reason": [], "root": none,
+        "reduced_root": given.get("root", none), "refined_root": none, "found": [], "held": [], "near_root": none,
+        "near_refined": none, "added": 0, "moved_root": none, "cause": [], "cause_change": np.empty((0, 0), complex),
+        "freedoms": 1, "refined_freedoms": 1, "contacts": 1, "refined_contacts": 1, "frequency_change": 0.0,
+        "growth_change": 0.0, "growth_share": 0.0, "frequency_tolerance": 0.005, "growth_tolerance": 0.1,
+        "neutral": 1.0, "converged": 1, **given})

@@ -56,13 +56,24 @@ def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_
     told = verdict(ending, ())
     assert told.headline.startswith("Squeal can start at 9 of 9 operating points, most strongly at 16.6")
     assert told.tone == "squeal" and "within 3\u202f%" in said(told)
-    assert "Converged: every refinement leaves the same unstable modes" in said(told)
+    assert "Converged: the same modes are unstable in the finer model" in said(told)
     told = verdict({**ending, "convergence": small.convergence(converged=False)}, ())
     assert told.headline.endswith("(not converged)") and told.tone == "warning"
-    assert "contact points (10.85\u202fkHz is gone)" in said(told) and "1 further unstable mode" in said(told)
-    assert "mesh of the disc (8.037\u202fkHz: 360 becomes 250 1/s)" in said(told)
+    assert "8.037\u202fkHz: 360 becomes 250 1/s; 10.85\u202fkHz is gone" in said(told)
+    assert "1 further unstable mode" in said(told)
+    assert "What moved them most: mesh of the bracket, 110\u202f1/s." in said(told)
     stable = verdict({"complex_modes": small.complex_modes(stable=True), "convergence": small.convergence()}, ())
     assert stable.headline == "Steady sliding is stable at all 9 operating points" and stable.tone == "quiet"
+
+
+def test_what_was_not_refined_is_said_and_never_called_converged():
+    bases = replace(small.convergence(), refinement=np.array(["bases"]), refined_root=small.convergence().root,
+                    left_out=np.array(["disc_mesh", "contact"]), converged=np.array(0),
+                    left_out_reason=np.array(["comes from a file", "was not asked for"]))
+    told = verdict({"complex_modes": small.complex_modes(), "convergence": bases}, ())
+    assert told.headline.endswith("(converged as far as refined)") and told.tone == "warning"
+    assert "The same modes are unstable without the reduction" in said(told) and "Converged" not in said(told)
+    assert "Not refined, and of unknown error: mesh of the disc and contact points." in said(told)
 
 
 def test_unstable_modes_below_squeal_are_told_as_groan_or_moan():

@@ -196,6 +196,6 @@ def _certainty(product, convergence):
     text = ("Uncertainties hold the smoothing of the tables of contact law and friction map alone, up to"
             f" {_growth((product.known * product.error * product.scatter).max())} here.")
     if convergence is not None and len(convergence.root):
-        text += (" Finer contact, meshes and bases change growth rates by up to"
+        text += (" Finer contact and meshes, and the reduction, change growth rates by up to"
                  f" {percent(convergence.growth_share, 2)}: derivatives are hardly better known.")
     return text
