@@ -11,7 +11,7 @@ import pytest
 
 from pipeline.contract.received import process
 from pipeline.environment import ONE_THREAD
-from tests.cost import pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401
+from tests.cost import pytest_collection_finish, pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401
 
 os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
 os.environ["BRAKECHAIN_WORKERS"] = "1"      # processes of short tasks would take longer to start than to compute
