@@ -68,7 +68,7 @@ class Convergence:
     near_refined: Array = quantity("1/s", "near", "the same in the finer model; that of the reduced one where not found", complex)
     added: Array = count("", "modes among these that grow in the finer model, beyond neutral ones")
     moved_root: Array = quantity("1/s", "moved", "roots of the case that move beyond the tolerances, or grow in the finer model alone", complex)
-    cause: Array = text("cause", "what is refined by itself then; model: no reduction, on the meshes of the case")
+    cause: Array = text("cause", "what is refined by itself then; model: nothing, on finite elements of the case that slide as they do themselves")
     cause_change: Array = quantity("1/s", "cause moved", "change of the root by it; 0 where the mode is gone", complex)
     freedoms: Array = count("", "degrees of freedom of the finite elements of the case")
     refined_freedoms: Array = count("", "of the finer model")

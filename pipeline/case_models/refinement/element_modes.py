@@ -11,7 +11,7 @@ from pipeline.physics.numerics.memory import refuse_beyond_memory
 from pipeline.physics.numerics.sparse_solver import factorise, refactorise
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState
-from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions, sliding_on_elements
 from pipeline.systems.disc_brake import build, moduli_left, softened
 
 #: bytes a degree of freedom: matrices, a factor and the search space of a family (measured: 34,000 to 35,000)
@@ -67,8 +67,8 @@ def element_modes(section, point, starts, matrices: BodyMatrices, tolerance: flo
     model = unreduced(brake, matrices, point.speed, fluid)
     nearest = _nearest(brake.contacts, starts)
     load = np.full(model.input_rows.shape[0], point.pressure * brake.pad_area)
-    sliding = sliding_on_elements(model, load, starts.law, starts.friction, starts.closure[nearest], matrices.solver,
-                                  settings.centrifugal)
+    sliding = sliding_on_elements(model, load, starts.law, starts.friction, starts.closure[nearest],
+                                  Solutions(matrices.solver), settings.centrifugal)
     friction = sliding.friction if settings.friction_slopes else FrictionState(sliding.friction.coefficient)
     operator = model_about(model, sliding.contact, settings.damping_speed).linearised(
         friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)

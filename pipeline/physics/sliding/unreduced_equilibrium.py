@@ -32,15 +32,15 @@ _LINEAR, _ITERATIONS = 1e-4, 40
 
 
 def sliding_on_elements(model: SlidingModel, input_force: np.ndarray, law: tuple, friction: Callable,
-                        closure: np.ndarray, solver: str, centrifugal: bool = True) -> SlidingState:
+                        closure: np.ndarray, solve: "Solutions", centrifugal: bool = True) -> SlidingState:
     """SlidingState of a sparse SlidingModel under ``input_force`` (i,) N.
 
     ``law``: closures (k,) m and pressures (k,) Pa of the normal contact, from 0; ``friction``: function of pressure and
-    sliding speed (c,) that gives a FrictionState; ``closure`` (c,) m to begin with, such as that of a coarser model.
-    Raises ConvergenceError where the forces do not balance.
+    sliding speed (c,) that gives a FrictionState; ``closure`` (c,) m to begin with, such as that of a coarser model;
+    ``solve``: Solutions, whose factor states of the same model at other loads and speeds may share. Raises
+    ConvergenceError where the forces do not balance.
     """
     sought = _Equilibrium(model, input_force @ model.input_rows, law, friction, centrifugal)
-    solve = _Solutions(solver)
     motion = solve(*sought.linear(closure))
     missing, size = sought.missing(motion)
     for _ in range(_STEPS):
@@ -57,7 +57,7 @@ def sliding_on_elements(model: SlidingModel, input_force: np.ndarray, law: tuple
                            f"{missing / size:.1e}", "raise the load, or lower friction")
 
 
-class _Solutions:
+class Solutions:
     """Solutions of linear equations by GMRES with the factor of a matrix before, or of the last where that is slow."""
 
     def __init__(self, solver):
@@ -68,9 +68,12 @@ class _Solutions:
             answer, failed = self._iterated(matrix, rhs)
             if not failed:
                 return answer
+        self._make(matrix)
+        return self._iterated(matrix, rhs)[0]
+
+    def _make(self, matrix):
         self._factor = None         # its memory goes before that of the next
         self._factor = factorise(matrix, self._solver, symmetric=False)
-        return self._iterated(matrix, rhs)[0]
 
     def _iterated(self, matrix, rhs):
         """(x, 0 or what failed): x = F^-1 y with A F^-1 y = b, so that forces, not motions, are what is left."""

@@ -12,7 +12,7 @@ WORDS = {"contact": "contact points", "pad_mesh": "mesh of the pads", "disc_mesh
          "caliper_mesh": "mesh of the caliper", "bracket_mesh": "mesh of the bracket",
          "piston_mesh": "mesh of the piston", "bases": "bases of the reduced model"}
 #: cause -> what it is called
-CAUSES = WORDS | {"model": "finite elements instead of the reduced model"}
+CAUSES = WORDS | {"model": "finite elements in their own sliding state"}
 
 
 def chapter(convergence, look):

@@ -14,7 +14,7 @@ from pipeline.contract import ConfigError
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState
-from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions, sliding_on_elements
 from tests.case_models.refinement.tiny_brake import SECTION
 
 LINEAR = SimpleNamespace(damping_speed=1.0, friction_slopes=True, friction_damping=True, gyroscopic=True,
@@ -32,7 +32,8 @@ def operator(section, matrices):
     brake = brake_of(section, POINT)
     model = unreduced(brake, matrices, POINT.speed)
     load = np.full(model.input_rows.shape[0], POINT.pressure * brake.pad_area)
-    state = sliding_on_elements(model, load, LAW, friction, np.full(len(brake.contacts.area), 2e-6), SOLVER)
+    state = sliding_on_elements(model, load, LAW, friction, np.full(len(brake.contacts.area), 2e-6),
+                                Solutions(SOLVER))
     about = model_about(model, state.contact, 1.0).linearised(state.friction)
     rows = scipy.sparse.vstack((model.contacts.normal, model.contacts.tangent, model.contacts.lateral), format="csr")
     return about, rows, brake.contacts, state.contact.closure

@@ -11,7 +11,7 @@ from pipeline.contract import ConvergenceError
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.sliding.equilibrium import closure_response, from_map, steady_sliding
 from pipeline.physics.sliding.model import sliding_model
-from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions, sliding_on_elements
 from tests.stages.small_brake import small_brake, small_map
 
 BRAKE = small_brake()
@@ -34,16 +34,25 @@ def test_forces_are_those_of_the_bodies_condensed_to_their_contacts(pressure):
     model = sliding_model(BRAKE, 1, 10.0)
     load = pressure * BRAKE.input_area
     expected = steady_sliding(model, closure_response(model), load, *LAW, FRICTION)
-    made = sliding_on_elements(sparse(model), load, LAW, FRICTION, np.full(6, LAW[0][3]), "superlu")
+    made = sliding_on_elements(sparse(model), load, LAW, FRICTION, np.full(6, LAW[0][3]), Solutions("superlu"))
     largest = expected.contact.force.max()
     np.testing.assert_allclose(made.contact.force, expected.contact.force, rtol=1e-7, atol=1e-7 * largest)
     np.testing.assert_allclose(made.contact.stiffness, expected.contact.stiffness, rtol=1e-7)
     np.testing.assert_allclose(made.friction.coefficient, expected.friction.coefficient, rtol=1e-7)
 
 
+def test_one_factor_serves_states_at_other_loads(monkeypatch):
+    made, shared = [], Solutions("superlu")
+    monkeypatch.setattr(shared, "_make", lambda matrix, make=shared._make: made.append(make(matrix)))
+    model = sparse(sliding_model(BRAKE, 1, 10.0))
+    forces = [sliding_on_elements(model, load * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][9]),
+                                  shared).contact.force.sum() for load in (2e6, 3e6)]
+    assert len(made) == 1 and forces[1] == pytest.approx(1.5 * forces[0], rel=0.05)
+
+
 def test_friction_turns_with_the_direction_of_sliding():
     forth, back = (sliding_on_elements(sparse(sliding_model(BRAKE, 1, speed)), 3e6 * BRAKE.input_area, LAW, FRICTION,
-                                       np.full(6, LAW[0][9]), "superlu").contact.force for speed in (10.0, -10.0))
+                                       np.full(6, LAW[0][9]), Solutions("superlu")).contact.force for speed in (10.0, -10.0))
     np.testing.assert_allclose(forth[:3], back[2::-1], rtol=1e-6)
 
 
@@ -51,4 +60,4 @@ def test_forces_that_do_not_balance_are_an_error(monkeypatch):
     monkeypatch.setattr("pipeline.physics.sliding.unreduced_equilibrium._STEPS", 1)
     model = sparse(sliding_model(BRAKE, 1, 10.0))
     with pytest.raises(ConvergenceError, match="steady sliding on finite elements: expected nodal forces"):
-        sliding_on_elements(model, 3e6 * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][40]), "superlu")
+        sliding_on_elements(model, 3e6 * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][40]), Solutions("superlu"))
