@@ -31,6 +31,8 @@ COMPILED, EXUDYN = "compiled", "exudyn"
 STEP, PATCHES, STICK, MODES = CHECKS = "step", "patches", "stick speed", "modes"
 #: share of the reach of the contact law at which motions begin: small, and for the way to the limit cycle
 _SMALL, _LARGE = 1e-3, 0.5
+#: share to which the small motion grows at most
+_STILL_SMALL = 0.03
 #: samples a second that are kept of the end of the motion
 _RATE = 100e3
 
@@ -131,7 +133,8 @@ def _simulate(task, model, friction_map, modes, terms, given, settings):
     growing = growing[np.isin(system.modes.root[growing], modes.unstable_root[modes.unstable_operating == point])]
     start = np.zeros(len(system.modes.root), complex)
     start[growing] = _SMALL * system.reach[growing]
-    small = _advanced(system, settings, start, settings.onset)
+    linear = np.log(_STILL_SMALL / _SMALL) / system.modes.root[growing].real.max()
+    small = _advanced(system, settings, start, max(min(settings.onset, linear), settings.step))
     seen = np.log(small.state[-1, growing] / small.state[0, growing])
     turned = np.unwrap(np.angle(small.state[:, growing]), axis=0)
     seen = (seen.real + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])

@@ -77,3 +77,13 @@ def test_a_wide_face_beside_many_narrow_ones_is_found():
     point = np.array([[0.021, 0.05, 0.01], [0.9, 0.05, 0.01]])
     rows = surface_rows(mesh.node, top(mesh), point, np.ones(2), np.arange(2))
     np.testing.assert_allclose(rows @ mesh.node, point, atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [None, 1, 2, 3, 4])
+def test_no_point_of_a_triangle_stands_for_a_negative_area(count):
+    """Contacts stand at these points, and a contact of negative area would pull; moments of order 2 n - 1 are exact."""
+    node = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0], [0.5, 0.5, 0], [0, 0.5, 0]])
+    point, area = face_points(node, np.arange(6)[None], count)
+    order = 2 * (count or 1) - 1
+    assert area.min() > 0.0
+    assert (area * point[..., 0] ** order).sum() == pytest.approx(1 / ((order + 1) * (order + 2)))
