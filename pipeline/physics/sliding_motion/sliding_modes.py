@@ -66,8 +66,9 @@ class SlidingModes:
             lost = np.argmax(distance)
             raise ConvergenceError(
                 "limit_cycle: sliding motion", f"a mode at {near[lost].imag / (2 * np.pi):.6g} Hz, which complex_modes"
-                " has", f"the nearest {100 * distance[lost]:.2g} % off", "lower limit_cycle.smallest_correction to a tenth, or"
-                f" leave the stage out: damping that is no damper's moves this root by more than {100 * _MATCH:g} %")
+                " has", f"the nearest {100 * distance[lost]:.2g} % off", "lower limit_cycle.smallest_correction to a"
+                " tenth, or leave the stage out: damping that is no damper's moves this root by more than"
+                f" {100 * _MATCH:g} %")
         root = self.root.copy()
         root[mode] = roots
         return replace(self, root=root)

@@ -79,8 +79,8 @@ def _relaxed(gap, compliance, near, mean_pressure, pressure, tolerance, iteratio
     precision of its arrays. ``near``: the stencil of the compliance."""
     pressure = pressure * (mean_pressure / pressure.mean())
     joining = float(near.max())
-    bearing, path, displaced = np.flatnonzero(pressure > 0.0), Path(near, gap), None
-    for iteration in range(iterations + 1):
+    bearing, path, displaced, iteration = np.flatnonzero(pressure > 0.0), Path(near, gap), None, 0
+    while True:
         displaced = apply(compliance, pressure) if displaced is None else displaced
         distance = (gap + displaced).ravel()
         approach = distance[bearing].mean()
@@ -96,6 +96,7 @@ def _relaxed(gap, compliance, near, mean_pressure, pressure, tolerance, iteratio
         bearing, factor = _advance(pressure, step * path.direction.ravel()[free], free,
                                    -step * joining * distance[free], mean_pressure)
         displaced = None if factor is None else factor * (displaced - step * image)
+        iteration += 1
 
 
 def _free(distance, bearing):
