@@ -16,7 +16,6 @@ from pipeline.cli.options import options
 from pipeline.cli.run_export import export as run_export
 from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
-from pipeline.contract.errors import BrakechainError, shortened
 
 RUNS = Path("data/runs")
 
@@ -319,16 +318,19 @@ def main():
     except (click.Abort, KeyboardInterrupt):
         click.echo("stopped; finished stages are kept, run the same command to continue", err=True)
         sys.exit(130)
-    except BrakechainError as error:
-        _fail(error, str(error), error.exit_code)
-    except Exception as error:  # the last resort: one line for the user, the traceback on request
-        told = shortened(f"{type(error).__name__}: {error}", 1000)
-        _fail(error, f"internal error: {told}; run again with --debug for the traceback", 1)
+    except Exception as error:
+        _fail(error)
 
 
-def _fail(error, message, code):
+def _fail(error):
+    """End with one line about an error of the user's; of any other, the last resort, the traceback is on request."""
+    from pipeline.contract.errors import BrakechainError, shortened
+
     if "--debug" in sys.argv:
         traceback.print_exception(error)
+    known = isinstance(error, BrakechainError)
+    message = str(error) if known else (f"internal error: {shortened(f'{type(error).__name__}: {error}', 1000)};"
+                                        " run again with --debug for the traceback")
     click.echo(f"error: {message}", err=True)
-    sys.exit(code)
+    sys.exit(error.exit_code if known else 1)
 

@@ -2,6 +2,7 @@
 
 import io
 import re
+from functools import lru_cache
 from pathlib import Path
 
 import yaml
@@ -70,7 +71,8 @@ def read_yaml(path):
     """
     path = Path(path)
     try:
-        document = _loaded(read_regular(path, BYTES).decode("utf-8"), str(path))
+        status = path.stat()
+        document = _document(path, (status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns))
         return {} if document is None else _unshared(document)
     except FileNotFoundError:
         raise ConfigError(path, "a YAML file", "none", "check the path") from None
@@ -82,6 +84,12 @@ def read_yaml(path):
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else path
         raise ConfigError(where, "valid YAML", getattr(error, "problem", None) or str(error)) from None
+
+
+@lru_cache(16)
+def _document(path, _):
+    """The document at ``path`` in the state that the second argument stands for: variants read the same files."""
+    return _loaded(read_regular(path, BYTES).decode("utf-8"), str(path))
 
 
 def _loaded(text, name):

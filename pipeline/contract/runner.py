@@ -42,11 +42,13 @@ class ChainRun:
     solver: str         # resolved, joins every hash
     variant: str = ""   # name of the variant of another run that this is
     shared: dict = field(default_factory=dict)      # product name -> its path, where another run holds the same
-    code: dict = field(init=False)      # stage -> digests of its code when this run began
+    code: dict = None       # stage -> digests of its code when this run began; None = those of now
     runs: dict = field(default_factory=dict, init=False, repr=False, compare=False)     # of its variants, once made
 
     def __post_init__(self):
-        object.__setattr__(self, "code", {s.name: fingerprint.code_of(s.run.__module__) for s in self.case.stages})
+        if self.code is None:
+            code = {stage.name: fingerprint.code_of(stage.run.__module__) for stage in self.case.stages}
+            object.__setattr__(self, "code", code)
 
     def path(self, product):
         return self.shared.get(product.name, self.folder / f"{product.name}.h5")
@@ -96,7 +98,8 @@ class ChainRun:
             if stage.name not in changed and all(part in shared for part in parts):
                 shared[stage.output.name] = self.path(stage.output)
         names.within(self.folder, f"variants/{names.checked(name, 'a variant')}")
-        return ChainRun(self.case.varied(changes), self.folder / "variants" / name, self.solver, name, shared)
+        folder = self.folder / "variants" / name
+        return ChainRun(self.case.varied(changes), folder, self.solver, name, shared, self.code)
 
     def _ingredients(self, stage):
         """(key, product, path) of everything that ``stage`` reads."""
