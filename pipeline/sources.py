@@ -38,8 +38,8 @@ def changed_since(module, instant):
 def file_of(module):
     """Path of a module or of the ``__init__`` of a package; None where there is none."""
     if module.split(".")[0] in PROJECT:
-        path = ROOT.joinpath(*module.split("."))
-        return next((p for p in (path / "__init__.py", path.with_suffix(".py")) if p.is_file()), None)
+        path = os.path.join(ROOT, *module.split("."))
+        return next((Path(p) for p in (f"{path}/__init__.py", f"{path}.py") if os.path.isfile(p)), None)
     try:
         spec = find_spec(module)
     except (ModuleNotFoundError, AttributeError):

@@ -3,7 +3,6 @@
 import hashlib
 import json
 import os
-from copy import deepcopy
 from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
 from functools import cached_property
@@ -75,7 +74,7 @@ class CaseFile:
 
     def varied(self, changes):
         """The case with ``changes`` {'stage.key': value} to its settings, as a YAML would give them."""
-        document = deepcopy(self.document)
+        document = documents.unshared(self.document)
         for key, value in changes.items():
             _set(document, key.split("."), value, f"variant: {key}")
         varied = replace(self, document=document)

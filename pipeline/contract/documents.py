@@ -1,6 +1,7 @@
 """YAML documents in: strict, with the line of every mistake. The one door of yaml."""
 
 import io
+import os
 import re
 from functools import lru_cache
 from pathlib import Path
@@ -71,9 +72,8 @@ def read_yaml(path):
     """
     path = Path(path)
     try:
-        status = path.stat()
-        document = _document(path, (status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns))
-        return {} if document is None else _unshared(document)
+        document = _document(path, state(path))
+        return {} if document is None else unshared(document)
     except FileNotFoundError:
         raise ConfigError(path, "a YAML file", "none", "check the path") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -84,6 +84,15 @@ def read_yaml(path):
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else path
         raise ConfigError(where, "valid YAML", getattr(error, "problem", None) or str(error)) from None
+
+
+def state(path):
+    """What changes with the file at ``path``: its number, size and times; None where there is none."""
+    try:
+        status = os.stat(path)
+    except OSError:
+        return None
+    return status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
 @lru_cache(16)
@@ -110,11 +119,11 @@ class _Named(io.StringIO):
         self.name = name
 
 
-def _unshared(value):
+def unshared(value):
     """``value`` with a copy of each list or mapping that the document repeats by an alias."""
     if isinstance(value, dict):
-        return {key: _unshared(inner) for key, inner in value.items()}
-    return [_unshared(inner) for inner in value] if isinstance(value, list) else value
+        return {key: unshared(inner) for key, inner in value.items()}
+    return [unshared(inner) for inner in value] if isinstance(value, list) else value
 
 
 def yaml_text(document):
