@@ -66,6 +66,7 @@ MAY_IMPORT = {
                "pipeline.views", "pipeline.recordings", "pipeline.decks", "pipeline.case_models", "pipeline.diagnosis"},
     "pipeline.cli": {"pipeline.contract"},
     "pipeline.cli.options": set(),
+    "pipeline.cli.early_pages": {"pipeline.contract", "pipeline.case_models.early", "pipeline.views.pages.early"},
     "pipeline.cli.facts": {"pipeline.cli", "pipeline.contract", "pipeline.products", "pipeline.views.pages.facts"},
     "pipeline.cli.compare": {"pipeline.cli", "pipeline.contract", "pipeline.products",
                              "pipeline.views.chapters.models.countermeasures"},

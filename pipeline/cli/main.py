@@ -3,6 +3,7 @@
 import os
 import sys
 import traceback
+from functools import partial
 from pathlib import Path
 
 import click
@@ -89,6 +90,7 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
 
 def _execute(job, first, last, force, dry_run, workers, scheduler):
     from pipeline.cli.console import Bars, RunContext
+    from pipeline.cli.early_pages import EarlyPages
     from pipeline.contract import executors
 
     first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
@@ -105,7 +107,9 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     work = executors.choose(workers or os.cpu_count() or 1, scheduler)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
-        computed = job.execute(context, first, last, frozenset(force), _report)
+        early = EarlyPages(job, context, frozenset(force), click.echo) if first is None and last is None else None
+        computed = job.execute(context, first, last, frozenset(force), partial(_report, early),
+                               early.open if early else lambda: None)
     finally:
         work.close()
     if not computed:
@@ -137,11 +141,13 @@ def _job_of(chosen, folder):
     return runner.ChainRun(chosen, folder or RUNS / chosen.name, solver)
 
 
-def _report(state, seconds):
+def _report(early, state, seconds):
     if seconds is None:
         return
     name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
     click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
+    if early and not state.variant:
+        early.follow(state.stage)
 
 
 def _because(reasons, most=3, longest=100):
