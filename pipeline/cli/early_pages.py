@@ -20,14 +20,15 @@ class EarlyPages:
     What goes wrong here is said, and leaves the run as it is.
     """
 
-    def __init__(self, job, context, force, say):
-        """``job``: a ChainRun, run whole, ``force``: names of stages; ``say(text)`` prints a line."""
-        self._job, self._context, self._force, self._say = job, context, force, say
+    def __init__(self, job, context, say):
+        """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
+        self._job, self._context, self._say = job, context, say
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
 
-    def open(self):
-        """The first look, unless the complex modes of the case are up to date or it has none."""
-        self._try(self._look)
+    def open(self, states):
+        """The first look, unless the planned ``states`` compute no complex modes or the case has none."""
+        if any(state.reasons for state in states if state.stage.name == "complex_modes"):
+            self._try(self._look)
 
     def follow(self, stage):
         """A page after ``stage``, if it changed the answer and others are to come that may change it again."""
@@ -36,12 +37,9 @@ class EarlyPages:
         if stage.name in ANSWERING and "report" in ahead:
             self._try(lambda: self._follow(behind, [name for name in ahead if name != "report"]))
 
-    def _stale(self, name):
-        return any(state.reasons for state in self._job.plan(force=self._force) if state.stage.name == name)
-
     def _look(self):
         changes = coarse(self._job.case.sections)
-        if not changes or not self._stale("complex_modes"):
+        if not changes:
             return
         from pipeline.views.pages.early import first_page
 

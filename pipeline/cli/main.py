@@ -91,6 +91,7 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
 def _execute(job, first, last, force, dry_run, workers, scheduler):
     from pipeline.cli.console import Bars, RunContext
     from pipeline.cli.early_pages import EarlyPages
+    from pipeline.cli.pace import Pace
     from pipeline.contract import executors
 
     first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
@@ -107,11 +108,14 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     work = executors.choose(workers or os.cpu_count() or 1, scheduler)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
-        early = EarlyPages(job, context, frozenset(force), click.echo) if first is None and last is None else None
-        computed = job.execute(context, first, last, frozenset(force), partial(_report, early),
-                               early.open if early else lambda: None)
+        early = EarlyPages(job, context, click.echo) if first is None and last is None else None
+        pace = Pace(job, getattr(work, "workers", 1))
+        computed = job.execute(context, first, last, frozenset(force), partial(_report, early, pace),
+                               lambda: _open(early, pace, job.plan(first, last, frozenset(force))))
     finally:
         work.close()
+    if computed:
+        pace.note_memory()
     if not computed:
         click.echo(f"nothing to compute: everything asked for is up to date in {job.folder}")
     elif (job.folder / "report.html").exists() and (last in (None, "report")):
@@ -141,7 +145,19 @@ def _job_of(chosen, folder):
     return runner.ChainRun(chosen, folder or RUNS / chosen.name, solver)
 
 
-def _report(early, state, seconds):
+def _open(early, pace, states):
+    """Say how long the planned ``states`` will take, and have a first look where there is one."""
+    from pipeline.physics.numerics.memory import available_memory
+
+    if told := pace.forecast(states, available_memory()):
+        click.echo(told)
+    if early:
+        early.open(states)
+    pace.begin()
+
+
+def _report(early, pace, state, seconds):
+    pace.note(state, seconds)
     if seconds is None:
         return
     name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
