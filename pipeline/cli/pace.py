@@ -19,6 +19,8 @@ from pipeline.environment import user_folder
 _KEPT, _SHORTEST = 5, 0.5
 #: measures within this factor are those of the same case: their notes count before all others
 _SAME = 1.1
+#: measures that differ by more say nothing of each other
+_NEAR = 10.0
 #: shorter runs are not forecast (s); memory grows with the number of elements by this power
 _WORTH_TELLING, _POWER = 20.0, 1.1
 #: stages that take most of a run, and the name under which memory is noted
@@ -112,7 +114,8 @@ class Pace:
 
 
 def _scaled(notes, size, power=1.0):
-    """The amount for a measure ``size`` of work: median of the notes of the same size, or of all in proportion."""
+    """The amount for a ``size`` of work: median of the notes of this size, or of near ones in proportion."""
+    notes = [note for note in notes if 1 / _NEAR < note.work / size < _NEAR]
     same = [note for note in notes if 1 / _SAME < note.work / size < _SAME]
     amounts = [note.amount * (size / note.work) ** power for note in same or notes]
     return median(amounts) if amounts else None

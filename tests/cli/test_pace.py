@@ -54,6 +54,7 @@ def test_nothing_is_known_at_first_then_the_times_of_the_last_run(monkeypatch, t
 def test_times_are_in_proportion_to_the_work_and_those_of_the_same_work_count_first(monkeypatch, tmp_path, clock):
     run(made(monkeypatch, tmp_path, measure=1.0), clock, 60.0)
     assert "about 6 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES, None)
+    assert "not known" in made(monkeypatch, tmp_path, measure=11.0).forecast(STATES, None), "too far to tell"
     for seconds in (200.0, 240.0, 900.0):       # a run beside another one took longer: the median is told
         run(made(monkeypatch, tmp_path, measure=3.0), clock, seconds)
     assert "about 8 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES, None)
