@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from pipeline.environment import ONE_THREAD
+from tests.cost import pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401: hooks
 
 os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
 os.environ["BRAKECHAIN_WORKERS"] = "1"      # processes of short tasks would take longer to start than to compute
