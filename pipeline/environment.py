@@ -34,6 +34,11 @@ def fix(environment=os.environ, path=sys.path):
         path[:] = [folder for folder in path if folder and Path(folder).absolute() != here]
 
 
+def user_folder(environment=os.environ):
+    """Folder of the user for what can be computed again."""
+    return Path(environment.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "brakechain"
+
+
 def use_compiled_cache(environment=os.environ):
     """Cache compiled code in a folder of the user, keyed by the state of its sources.
 
@@ -42,7 +47,7 @@ def use_compiled_cache(environment=os.environ):
     environment.setdefault(LOCATORS, ",".join(_LOCATORS))
     if CACHE in environment:
         return
-    home = Path(environment.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "brakechain"
+    home = user_folder(environment)
     try:
         (home / "compiled").mkdir(parents=True, exist_ok=True)
     except OSError:

@@ -1,6 +1,7 @@
 """The project files that a module depends on: itself and everything that it imports, transitively."""
 
 import hashlib
+import os
 import re
 from functools import cache
 from importlib.util import find_spec
@@ -14,8 +15,9 @@ _IMPORT = re.compile(rf"^[ \t]*(?:import[ \t]+(?P<plain>(?:{'|'.join(PROJECT)})\
                      r"(?:\((?P<lines>[^)]*)\)|(?P<line>[^\n#]*)))", re.MULTILINE)
 
 
+@cache
 def files_of(module):
-    """{module: path} of ``module`` and of every project module that it imports, transitively."""
+    """{module: path} of ``module`` and of every project module that it imports, transitively; not to be changed."""
     files, waiting = {}, [module]
     while waiting:
         name = waiting.pop()
@@ -36,8 +38,8 @@ def changed_since(module, instant):
 def file_of(module):
     """Path of a module or of the ``__init__`` of a package; None where there is none."""
     if module.split(".")[0] in PROJECT:
-        path = ROOT.joinpath(*module.split("."))
-        return next((p for p in (path / "__init__.py", path.with_suffix(".py")) if p.is_file()), None)
+        path = os.path.join(ROOT, *module.split("."))
+        return next((Path(p) for p in (f"{path}/__init__.py", f"{path}.py") if os.path.isfile(p)), None)
     try:
         spec = find_spec(module)
     except (ModuleNotFoundError, AttributeError):
@@ -63,6 +65,7 @@ def _words(names):
     return [part.split()[0] for part in names.split(",") if part.split()]
 
 
+@cache
 def listed(name, path):
     """Modules of a package that loads them by name: a catalogue, which has no import statements for them."""
     if path.name != "__init__.py" or name == "stages" or "import_module(" not in path.read_text(encoding="utf-8"):
@@ -73,11 +76,12 @@ def listed(name, path):
 
 def digest(path):
     """SHA-256 of one file."""
-    stat = Path(path).stat()
-    return _digest(Path(path), stat.st_mtime_ns, stat.st_size)
+    name = os.fspath(path)
+    status = os.stat(name)
+    return _digest(name, status.st_mtime_ns, status.st_size)
 
 
 @cache
 def _digest(path, _modified, _size):
-    with path.open("rb") as stream:
+    with open(path, "rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

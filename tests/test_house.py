@@ -69,6 +69,8 @@ MAY_IMPORT = {
                "pipeline.views", "pipeline.recordings", "pipeline.decks", "pipeline.case_models", "pipeline.diagnosis"},
     "pipeline.cli": {"pipeline.contract"},
     "pipeline.cli.options": set(),
+    "pipeline.cli.early_pages": {"pipeline.contract", "pipeline.case_models.early", "pipeline.views.pages.early"},
+    "pipeline.cli.pace": {"pipeline.case_models.early", "pipeline.environment"},
     "pipeline.cli.facts": {"pipeline.cli", "pipeline.contract", "pipeline.products", "pipeline.views.pages.facts"},
     "pipeline.cli.compare": {"pipeline.cli", "pipeline.contract", "pipeline.products",
                              "pipeline.views.chapters.models.countermeasures"},
@@ -81,8 +83,8 @@ MAY_IMPORT = {
     "pipeline.cli.new_case": {"pipeline.cli.options", "pipeline.contract", "stages"},
     "pipeline.cli.surface_fit": {"pipeline.case_models.rough", "pipeline.contract", "pipeline.recordings"},
     "pipeline.cli.main": {"pipeline.cli", "pipeline.contract", "pipeline.recordings", "stages",
-                          "pipeline.physics.numerics.sparse_solver", "pipeline.case_models",
-                          "pipeline.diagnosis.campaign_planning"},
+                          "pipeline.physics.numerics.sparse_solver", "pipeline.physics.numerics.memory",
+                          "pipeline.case_models", "pipeline.diagnosis.campaign_planning"},
     "pipeline.__main__": {"pipeline.cli.main", "pipeline.environment"},
 }
 #: third-party package -> its doors

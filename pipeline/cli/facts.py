@@ -7,7 +7,6 @@ from pathlib import Path
 import click
 
 from pipeline.cli.options import options
-from pipeline.contract.errors import ConfigError
 
 
 @click.command()
@@ -24,6 +23,7 @@ def facts(sources, only, markdown, file):
     processors, give ranges.
     """
     from pipeline.cli.console import table
+    from pipeline.contract.errors import ConfigError
     from pipeline.contract.store import write_companion
     from pipeline.views.pages import facts as page
 
@@ -46,6 +46,8 @@ def facts(sources, only, markdown, file):
 
 def _committed(runs):
     """ConfigError if no commit holds the code of a run: its numbers could not be computed again."""
+    from pipeline.contract.errors import ConfigError
+
     for commit in sorted({commit for run in runs for commit in run["commits"]}):
         if not re.fullmatch("[0-9a-f]{40}", commit):
             raise ConfigError("--record", "runs of committed code", f"products of {commit}",
@@ -54,6 +56,7 @@ def _committed(runs):
 
 def _record(sources):
     """The record in ``sources[0]``, or that of the run folders ``sources``."""
+    from pipeline.contract.errors import ConfigError
     from pipeline.views.pages import facts as page
 
     if sources[0].is_file():
@@ -69,6 +72,8 @@ def _record(sources):
 
 
 def _stored(file):
+    from pipeline.contract.errors import ConfigError
+
     try:
         record = json.loads(file.read_text(encoding="utf-8"))
         return {"runs": record["runs"], "facts": record["facts"]}

@@ -3,6 +3,7 @@
 import os
 import sys
 import traceback
+from functools import partial
 from pathlib import Path
 
 import click
@@ -16,7 +17,6 @@ from pipeline.cli.options import options
 from pipeline.cli.run_export import export as run_export
 from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
-from pipeline.contract.errors import BrakechainError, shortened
 
 RUNS = Path("data/runs")
 
@@ -90,6 +90,8 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
 
 def _execute(job, first, last, force, dry_run, workers, scheduler):
     from pipeline.cli.console import Bars, RunContext
+    from pipeline.cli.early_pages import EarlyPages
+    from pipeline.cli.pace import Pace
     from pipeline.contract import executors
 
     first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
@@ -106,9 +108,14 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     work = executors.choose(workers or os.cpu_count() or 1, scheduler)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
-        computed = job.execute(context, first, last, frozenset(force), _report)
+        early = EarlyPages(job, context, click.echo) if first is None and last is None else None
+        pace = Pace(job, getattr(work, "workers", 1))
+        computed = job.execute(context, first, last, frozenset(force), partial(_report, early, pace),
+                               lambda: _open(early, pace, job.plan(first, last, frozenset(force))))
     finally:
         work.close()
+    if computed:
+        pace.note_memory()
     if not computed:
         click.echo(f"nothing to compute: everything asked for is up to date in {job.folder}")
     elif (job.folder / "report.html").exists() and (last in (None, "report")):
@@ -138,11 +145,25 @@ def _job_of(chosen, folder):
     return runner.ChainRun(chosen, folder or RUNS / chosen.name, solver)
 
 
-def _report(state, seconds):
+def _open(early, pace, states):
+    """Say how long the planned ``states`` will take, and have a first look where there is one."""
+    from pipeline.physics.numerics.memory import available_memory
+
+    if told := pace.forecast(states, available_memory()):
+        click.echo(told)
+    if early:
+        early.open(states)
+    pace.begin()
+
+
+def _report(early, pace, state, seconds):
+    pace.note(state, seconds)
     if seconds is None:
         return
     name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
     click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
+    if early and not state.variant:
+        early.follow(state.stage)
 
 
 def _because(reasons, most=3, longest=100):
@@ -319,16 +340,19 @@ def main():
     except (click.Abort, KeyboardInterrupt):
         click.echo("stopped; finished stages are kept, run the same command to continue", err=True)
         sys.exit(130)
-    except BrakechainError as error:
-        _fail(error, str(error), error.exit_code)
-    except Exception as error:  # the last resort: one line for the user, the traceback on request
-        told = shortened(f"{type(error).__name__}: {error}", 1000)
-        _fail(error, f"internal error: {told}; run again with --debug for the traceback", 1)
+    except Exception as error:
+        _fail(error)
 
 
-def _fail(error, message, code):
+def _fail(error):
+    """End with one line about an error of the user's; of any other, the last resort, the traceback is on request."""
+    from pipeline.contract.errors import BrakechainError, shortened
+
     if "--debug" in sys.argv:
         traceback.print_exception(error)
+    known = isinstance(error, BrakechainError)
+    message = str(error) if known else (f"internal error: {shortened(f'{type(error).__name__}: {error}', 1000)};"
+                                        " run again with --debug for the traceback")
     click.echo(f"error: {message}", err=True)
-    sys.exit(code)
+    sys.exit(error.exit_code if known else 1)
 

@@ -3,7 +3,6 @@
 import hashlib
 import json
 import os
-from copy import deepcopy
 from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
 from functools import cached_property
@@ -57,22 +56,31 @@ class CaseFile:
         return self.document.get("solver", "auto")
 
     @cached_property
-    def _plain(self):
-        return {s.name: settings.without_origins(self.given(s), f"{self.path}: {s.name}") for s in self.stages}
+    def _filled(self):
+        """stage name -> settings that were filled so far; those of a variant begin with what its changes leave."""
+        return {}
 
     @cached_property
     def sections(self):
         """stage name -> filled settings; ConfigError for anything not understood."""
-        context = {"folders": self.folders, "measured": self.measured}
-        return {s.name: settings.fill(s.settings, self._plain[s.name], f"{self.path}: {s.name}", context)
-                for s in self.stages if s.name not in self.unread}
+        for stage in self.stages:
+            if stage.name not in self._filled and stage.name not in self.unread:
+                self._filled[stage.name] = self._section(stage)
+        return {stage.name: self._filled[stage.name] for stage in self.stages if stage.name not in self.unread}
+
+    def _section(self, stage):
+        where, context = f"{self.path}: {stage.name}", {"folders": self.folders, "measured": self.measured}
+        return settings.fill(stage.settings, settings.without_origins(self.given(stage), where), where, context)
 
     def varied(self, changes):
         """The case with ``changes`` {'stage.key': value} to its settings, as a YAML would give them."""
-        document = deepcopy(self.document)
+        document = documents.unshared(self.document)
         for key, value in changes.items():
             _set(document, key.split("."), value, f"variant: {key}")
-        return replace(self, document=document)
+        varied = replace(self, document=document)
+        changed = {key.partition(".")[0] for key in changes}
+        varied._filled.update({name: each for name, each in self._filled.items() if name not in changed})
+        return varied
 
     def check(self):
         """Refuse sections that are not understood or contradict each other, and variants of the case that would be."""

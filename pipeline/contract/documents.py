@@ -1,7 +1,9 @@
 """YAML documents in: strict, with the line of every mistake. The one door of yaml."""
 
 import io
+import os
 import re
+from functools import lru_cache
 from pathlib import Path
 
 import yaml
@@ -70,8 +72,8 @@ def read_yaml(path):
     """
     path = Path(path)
     try:
-        document = _loaded(read_regular(path, BYTES).decode("utf-8"), str(path))
-        return {} if document is None else _unshared(document)
+        document = _document(path, state(path))
+        return {} if document is None else unshared(document)
     except FileNotFoundError:
         raise ConfigError(path, "a YAML file", "none", "check the path") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -82,6 +84,21 @@ def read_yaml(path):
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else path
         raise ConfigError(where, "valid YAML", getattr(error, "problem", None) or str(error)) from None
+
+
+def state(path):
+    """What changes with the file at ``path``: its number, size and times; None where there is none."""
+    try:
+        status = os.stat(path)
+    except OSError:
+        return None
+    return status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+
+
+@lru_cache(16)
+def _document(path, _):
+    """The document at ``path`` in the state that the second argument stands for: variants read the same files."""
+    return _loaded(read_regular(path, BYTES).decode("utf-8"), str(path))
 
 
 def _loaded(text, name):
@@ -102,11 +119,11 @@ class _Named(io.StringIO):
         self.name = name
 
 
-def _unshared(value):
+def unshared(value):
     """``value`` with a copy of each list or mapping that the document repeats by an alias."""
     if isinstance(value, dict):
-        return {key: _unshared(inner) for key, inner in value.items()}
-    return [_unshared(inner) for inner in value] if isinstance(value, list) else value
+        return {key: unshared(inner) for key, inner in value.items()}
+    return [unshared(inner) for inner in value] if isinstance(value, list) else value
 
 
 def yaml_text(document):

@@ -1,7 +1,9 @@
 """What decides whether a stage must run again: settings, inputs' content, solver and code."""
 
 import hashlib
+import os
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from pipeline import sources
@@ -68,9 +70,15 @@ def _plain(value):
 
 def code_of(module):
     """{module: SHA-256} of ``module`` and of every project module that it imports, transitively."""
+    return {name: digest(path) for name, path in _files_of(module)}
+
+
+@cache
+def _files_of(module):
+    """(name, path) of every file that ``module`` depends on, sorted."""
     files = sources.files_of(module)
     data = {name: path for module, file in files.items() for name, path in _package_data(module, file).items()}
-    return {name: digest(path) for name, path in sorted((files | data).items())}
+    return tuple(sorted((name, os.fspath(path)) for name, path in (files | data).items()))
 
 
 def _package_data(name, path):

@@ -1,12 +1,10 @@
 """Run a chain in a run folder: stages that are up to date are skipped, the others computed and published atomically."""
 
 import errno
-import fcntl
 import json
 import os
 import platform
 import time
-from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -17,6 +15,7 @@ from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.integrity import checksum, examined, seen
+from pipeline.contract.integrity.lock import closed, locked
 from pipeline.contract.integrity.origin import git_commit, kernels, packages
 from pipeline.contract.integrity.verify import recorded
 from pipeline.contract.received import files, names
@@ -42,11 +41,13 @@ class ChainRun:
     solver: str         # resolved, joins every hash
     variant: str = ""   # name of the variant of another run that this is
     shared: dict = field(default_factory=dict)      # product name -> its path, where another run holds the same
-    code: dict = field(init=False)      # stage -> digests of its code when this run began
+    code: dict = None       # stage -> digests of its code when this run began; None = those of now
     runs: dict = field(default_factory=dict, init=False, repr=False, compare=False)     # of its variants, once made
 
     def __post_init__(self):
-        object.__setattr__(self, "code", {s.name: fingerprint.code_of(s.run.__module__) for s in self.case.stages})
+        if self.code is None:
+            code = {stage.name: fingerprint.code_of(stage.run.__module__) for stage in self.case.stages}
+            object.__setattr__(self, "code", code)
 
     def path(self, product):
         return self.shared.get(product.name, self.folder / f"{product.name}.h5")
@@ -96,7 +97,8 @@ class ChainRun:
             if stage.name not in changed and all(part in shared for part in parts):
                 shared[stage.output.name] = self.path(stage.output)
         names.within(self.folder, f"variants/{names.checked(name, 'a variant')}")
-        return ChainRun(self.case.varied(changes), self.folder / "variants" / name, self.solver, name, shared)
+        folder = self.folder / "variants" / name
+        return ChainRun(self.case.varied(changes), folder, self.solver, name, shared, self.code)
 
     def _ingredients(self, stage):
         """(key, product, path) of everything that ``stage`` reads."""
@@ -183,10 +185,11 @@ class ChainRun:
             raise ConfigError("--from/--until", "a stage at or after --from", f"--from {first} --until {last}")
         return self.case.stages[begin:end]
 
-    def execute(self, context, first=None, last=None, force=frozenset(), report=lambda state, seconds: None):
+    def execute(self, context, first=None, last=None, force=frozenset(), report=lambda state, seconds: None,
+                opening=lambda: None):
         """Compute what must be computed; ``report`` is called with (state, seconds or None) after each stage.
 
-        Returns the number of stages computed.
+        ``opening`` is called once the folder is locked, before all stages. Returns the number of stages computed.
         """
         planned = [] if os.access(self.folder, os.W_OK) else self.plan(first, last, force)
         if planned and not any(state.reasons for state in planned):     # nothing to write: it may be read-only
@@ -196,11 +199,30 @@ class ChainRun:
         with locked(self.folder):
             new = self._examine()
             try:
+                opening()
                 return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))
             finally:
                 self._note()
                 if new:
                     self._note_variants()
+
+    def looked_ahead(self, name, changes, last, context):
+        """The run of a variant that no stage reads, computed up to the stage ``last`` with what it shares."""
+        run = self.varied(name, changes)
+        read = {product for stage in run._towards(last) for product in run.filled(stage).values() if product}
+        for product in sorted(read, key=lambda each: each.name):
+            if product.name in run.shared:
+                for stage in self._towards(self.producer((product,))):
+                    self._bring(stage, context, frozenset(), lambda state, seconds: None)
+        _computed((run, [last]), context)
+        return run
+
+    def announce(self, stage, name, content):
+        """Write ``content`` where ``stage`` will write its companion ``name``, in place of what it wrote before."""
+        stored = _stored(self.path(stage.output))
+        for old in (self.path(stage.output), *(self.folder / each for each in (stored or {}).get("companions", ()))):
+            _remove(old)
+        store.write_companion(self.folder / name, content)
 
     def _examine(self):
         """Have all products that are not known examined by one process; their number."""
@@ -261,7 +283,7 @@ class ChainRun:
 
     def _compute(self, stage, context):
         if not os.access(self.folder, os.W_OK | os.X_OK):      # at once, not after minutes of computing
-            raise _closed(self.folder, os.strerror(errno.EACCES))
+            raise closed(self.folder, os.strerror(errno.EACCES))
         inputs, current = self._inputs(stage, not context.sees_files), self.fingerprint(stage)
         for _, product, path in self._ingredients(stage):   # also those that a stage which reads all might never read
             if current is None and store.identity(path) is None:
@@ -347,38 +369,3 @@ def _remove(path):
 
 def _unreadable(path):
     return "its file is damaged" if path.is_symlink() or path.exists() else "not computed yet"
-
-
-def _closed(folder, why):
-    return ProductError(folder, "a run folder that can be written", why,
-                        "choose another with --run, or correct its permissions")
-
-
-@contextmanager
-def locked(folder):
-    """Lock the run folder for this process; the lock is released however the process ends."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        handle = files.open_lock(folder / ".lock")
-    except OSError as error:
-        raise _closed(folder, f".lock: {error.strerror}" if folder.is_dir() else error.strerror) from None
-    try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            holder = os.pread(handle, 32, 0).decode(errors="replace") or "unknown"
-            raise ProductError(folder, "a free run folder", f"another run on it (process {holder})",
-                               "wait for it, or choose another folder with --run") from None
-        os.ftruncate(handle, 0)
-        os.pwrite(handle, str(os.getpid()).encode(), 0)
-        _sweep(folder)
-        yield
-    finally:
-        os.close(handle)
-
-
-def _sweep(folder):
-    """Remove files that a killed run left half-written."""
-    for half in folder.glob(".*.partial"):
-        with suppress(OSError):
-            half.unlink()

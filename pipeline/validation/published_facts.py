@@ -4,11 +4,12 @@ A fact is never deleted, only doubted. The format is documented at the head of e
 """
 
 from collections import Counter
+from functools import lru_cache
 from typing import Literal
 
 from pydantic import Field, model_validator
 
-from pipeline.contract.documents import read_yaml
+from pipeline.contract.documents import read_yaml, state
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.settings import Section, fill
 
@@ -71,6 +72,12 @@ def load(path):
 
     Raises ConfigError with file, number and key of a fact that is not well formed, or given twice.
     """
+    return _facts(path, state(path))
+
+
+@lru_cache(4)
+def _facts(path, _):
+    """The facts of a file in one state: every variant of a case is checked against them."""
     records = read_yaml(path)
     if not isinstance(records, list):
         raise ConfigError(path, "a list of facts", type(records).__name__, "see data/reference/disc_brake.yaml")

@@ -14,6 +14,7 @@ from pipeline import sources
 from pipeline.cli.console import Bars, RunContext
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
 from pipeline.contract.executors import choose
+from pipeline.contract.integrity.lock import locked
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Compared, Doubled
 
@@ -229,7 +230,7 @@ def test_variants_of_the_default_case_go_to_other_processes():
 
 
 def _hold(folder, ready, free):
-    with runner.locked(Path(folder)):
+    with locked(Path(folder)):
         ready.set()
         free.wait(20)
 
@@ -265,3 +266,31 @@ def test_provenance_says_how_it_was_made(config):
     told = store.provenance(config.parent / "run" / "source.h5")
     assert told["stage"] == "source" and '"duration": "3 s"' in told["settings"] and told["wall_seconds"] >= 0
     assert {"git_commit", "packages", "kernels", "python", "cpu_seconds", "brakechain"} <= set(told)
+
+
+def test_a_look_ahead_computes_a_variant_with_what_it_shares_and_nothing_else(config):
+    run = job(config)
+    with locked(run.folder):
+        look = run.looked_ahead("look", {"doubled.factor": 3}, run.case.stages[1], Context())
+    assert store.read(Doubled, look.path(Doubled)).signal[0, 0] == 3000.0
+    assert sorted(path.name for path in run.folder.glob("*.h5")) == ["source.h5"], "shared, and computed once"
+    before = look.path(Doubled).stat().st_mtime_ns
+    again = job(config).looked_ahead("look", {"doubled.factor": 3}, run.case.stages[1], Context())
+    assert again.path(Doubled).stat().st_mtime_ns == before
+    assert run.execute(Context()) == 1
+
+
+def test_what_is_announced_replaces_what_the_stage_wrote(config):
+    run = job(config)
+    run.execute(Context())
+    run.announce(run.case.stages[1], "doubled.csv", "to come")
+    assert (run.folder / "doubled.csv").read_text() == "to come" and not (run.folder / "doubled.h5").exists()
+    assert job(config).execute(Context()) == 1
+    assert "2000.0" in (run.folder / "doubled.csv").read_text()
+
+
+def test_what_opens_a_run_is_called_before_its_stages(config):
+    told = []
+    job(config).execute(Context(), report=lambda state, seconds: told.append(state.stage.name),
+                        opening=lambda: told.append("opening"))
+    assert told == ["opening", "source", "doubled"]

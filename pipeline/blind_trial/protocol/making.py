@@ -15,8 +15,8 @@ from pipeline.blind_trial.protocol.case_set import FORMAT, TrialSet, canonical, 
 from pipeline.blind_trial.protocol.stratification import drawn
 from pipeline.blind_trial.protocol.truth_format import check_truth
 from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.integrity.lock import locked
 from pipeline.contract.received import names
-from pipeline.contract.runner import locked
 from pipeline.contract.store import write_companion
 
 #: seeds that are tried for a case that cannot be made

@@ -11,8 +11,8 @@ from pipeline.blind_trial.protocol.case_set import TrialSet, checked_truth
 from pipeline.blind_trial.protocol.making import described
 from pipeline.blind_trial.protocol.scoring import unsealed
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.integrity.lock import locked
 from pipeline.contract.received import names
-from pipeline.contract.runner import locked
 
 #: where cases lie until they are whole
 _HALF = ".remaking"

@@ -1,16 +1,15 @@
 """What a product was computed with: packages, kernels of linear algebra, commit of the code."""
 
 import subprocess
-from importlib import metadata
 from pathlib import Path
-
-from threadpoolctl import threadpool_info
 
 _PACKAGES = ("numpy", "scipy", "scikit-fem", "exudyn", "h5py", "numba", "pypardiso", "SurfaceTopography", "pyvista")
 
 
 def packages():
     """{name: version} of the packages that results depend on, where they are installed."""
+    from importlib import metadata
+
     versions = {}
     for name in _PACKAGES:
         try:
@@ -22,6 +21,8 @@ def packages():
 
 def kernels():
     """Linear algebra libraries that are loaded, each with the processor kernel that it uses."""
+    from threadpoolctl import threadpool_info
+
     loaded = {f"{library['internal_api']} {library.get('architecture') or ''}".strip() for library in threadpool_info()
               if library["user_api"] == "blas"}
     return sorted(loaded)

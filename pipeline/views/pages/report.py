@@ -113,12 +113,24 @@ def plan(products, look):
 
 def page(chapters, products, case, look):
     """HTML text of the report; the same arguments give the same bytes."""
+    return _rendered(chapters, products, case, verdict(products, case_view.tuned(case)), _key_figures(products, look))
+
+
+def early_page(told, products, case, note, look=None):
+    """HTML text of the first screen while a chain runs: a Verdict with a ``note`` on what it stands on; no chapters.
+
+    ``look``: how its key figure is drawn; None: it has none.
+    """
+    return _rendered((), products, case, told, _key_figures(products, look) if look else (), note)
+
+
+def _rendered(chapters, products, case, told, key_figures, note=""):
     facts = products.get("comparison")
     silent = set(CHAPTERS) & set(products) - {chapter.anchor for chapter in chapters}
-    methods = tuple((stage, sentence) for stage, sentence in case_view.methods(case) if stage not in silent)
+    methods = tuple((stage, text) for stage, text in case_view.methods(case) if stage not in silent and not note)
     return template().render(
-        case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)), system=system(products),
-        key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
+        case=case, chapters=chapters, verdict=told, note=note, system=system(products),
+        key_figures=key_figures, key_tables=() if facts is None else comparison.tables(facts),
         measure=to_measure(case, products), measure_note=statement(case, products), stages=case_view.stages(case),
         methods=methods, limits=limits(products))
 

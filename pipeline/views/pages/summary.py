@@ -44,8 +44,11 @@ class Verdict:
     facts: tuple
 
 
-def verdict(products, tuned_settings):
-    """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
+def verdict(products, tuned_settings, ahead=()):
+    """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs.
+
+    ``ahead``: names of stages that are to come, while the chain runs: their parts say so.
+    """
     if products.get("diagnosis") is not None or products.get("line_evidence") is not None:
         return _diagnosed(products.get("diagnosis"), products, tuned_settings)
     for name, told in (("friction_update", measured_friction), ("model_update", model_update),
@@ -56,12 +59,27 @@ def verdict(products, tuned_settings):
                            tuple(_facts(products)))
     if products.get("noise_matrix") is not None:
         return _of_matrix(products["noise_matrix"], products, tuned_settings)
-    headline, tone = _headline(products)
-    answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
-               ("What to change", _matters(products)), ("What helps", _helps(products)),
-               ("How certain", _sure(products)),
-               ("Tuned", _tuned(products, tuned_settings))]
-    return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
+    headline, tone = _headline(products, ahead)
+    answers = [("Where", _where(products), "limit_cycle"), ("Why", _why(products), "complex_modes"),
+               ("How likely", _likely(products), "probability"),
+               ("What to change", _matters(products), "sensitivities"),
+               ("What helps", _helps(products), "countermeasures"),
+               ("How certain", _sure(products, ahead), "convergence"),
+               ("Tuned", _tuned(products, tuned_settings), "")]
+    told = ((question, "Being computed." if stage in ahead else text) for question, text, stage in answers)
+    return Verdict(headline, tone, tuple(a for a in told if a[1]), tuple(_facts(products)))
+
+
+def first_look(modes):
+    """Verdict over ComplexModes of one operating point on coarse meshes, before all else; its basis is told beside."""
+    squeals = squealing(modes)
+    text = "steady sliding is stable"
+    if len(squeals):
+        frequency = quantity(modes.unstable_root[int(np.argmax(squeals))].imag / TWO_PI, "Hz", 3)
+        text = f"squeal can start, most strongly at {frequency}" if squeals.any() else \
+            f"no squeal, but groan or moan at {frequency}"
+    return Verdict(f"First look, not converged: {text}", "warning", (("Why", _why({"complex_modes": modes})),),
+                   (_modes(modes),))
 
 
 def _of_matrix(product, products, tuned_settings):
@@ -94,12 +112,12 @@ def published_squeal(comparison):
                          and str(comparison.unit[r]) in size}))
 
 
-def _headline(products):
+def _headline(products, ahead):
     squeal, modes = products.get("squeal"), products.get("complex_modes")
     if products.get("rupture") is not None:
         return rupture_headline(products["rupture"]), "warning"
-    if products.get("convergence") is not None:
-        return _onset(modes, products["convergence"], products.get("limit_cycle"))
+    if products.get("convergence") is not None or "convergence" in ahead:
+        return _onset(modes, _doubt(products.get("convergence")), products.get("limit_cycle"))
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
         if len(squeal.pressure) == 1:
@@ -124,13 +142,20 @@ def _headline(products):
     return "No squeal predicted", "quiet"
 
 
-def _onset(modes, refined, cycle):
+def _doubt(refined):
+    """What a headline adds on convergence; None: it is to come."""
+    if refined is None:
+        return " (convergence: being computed)"
+    if refined.converged.item():
+        return ""
+    return " (converged as far as refined)" if convergence.unjudged(refined) else " (not converged)"
+
+
+def _onset(modes, doubt, cycle):
     """Headline of a two-way analysis: whether the brake squeals or, without a simulation, whether squeal can start; and
     whether that is converged."""
     points, squeals = len(modes.operating_speed), squealing(modes)
     starts = len(np.unique(modes.unstable_operating[squeals]))
-    doubt = "" if refined.converged.item() else " (converged as far as refined)"
-    doubt = doubt if not doubt or convergence.unjudged(refined) else " (not converged)"
     if not starts and len(squeals):
         lower = quantity(modes.unstable_root[0].imag / TWO_PI, "Hz", 3)
         return f"No squeal, but groan or moan at {lower}{doubt}", "warning"
@@ -250,12 +275,12 @@ def _own_brake(products):
     return products.get("comparison") is None and products.get("structure") is not None
 
 
-def _sure(products):
+def _sure(products, ahead):
     comparison, refined = _compared(products), products.get("convergence")
     converged = "" if refined is None else f"{convergence.statement(refined)} "
     for told in filter(None, (outside_computed(products), open_balance(products.get("multibody")))):
         converged += f"{told} "
-    if _own_brake(products):
+    if _own_brake(products) or "comparison" in ahead:
         return converged.strip()
     if comparison is None:
         return f"{converged}There is no published result to compare with."

@@ -52,7 +52,8 @@ def test_one_factor_serves_states_at_other_loads(monkeypatch):
 
 def test_friction_turns_with_the_direction_of_sliding():
     forth, back = (sliding_on_elements(sparse(sliding_model(BRAKE, 1, speed)), 3e6 * BRAKE.input_area, LAW, FRICTION,
-                                       np.full(6, LAW[0][9]), Solutions("superlu")).contact.force for speed in (10.0, -10.0))
+                                       np.full(6, LAW[0][9]), Solutions("superlu")).contact.force
+                   for speed in (10.0, -10.0))
     np.testing.assert_allclose(forth[:3], back[2::-1], rtol=1e-6)
 
 

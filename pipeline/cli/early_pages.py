@@ -1,0 +1,70 @@
+"""The reader first: what is known while a chain runs, as a sentence on the terminal and a page in the run folder."""
+
+import time
+
+from pipeline import __version__
+from pipeline.case_models.early.first_look import coarse
+from pipeline.contract import Products, store
+from pipeline.contract.errors import shortened
+
+#: stages whose products change the answer
+ANSWERING = ("complex_modes", "convergence", "limit_cycle", "probability", "sensitivities", "design_search",
+             "countermeasures")
+#: the variant of the case that is a first look, and the page
+LOOK, PAGE = "first_look", "report.html"
+
+
+class EarlyPages:
+    """Pages of a run that is under way, each marked; the stage report writes the last one.
+
+    What goes wrong here is said, and leaves the run as it is.
+    """
+
+    def __init__(self, job, context, say):
+        """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
+        self._job, self._context, self._say = job, context, say
+        self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
+
+    def open(self, states):
+        """The first look, unless the planned ``states`` compute no complex modes or the case has none."""
+        if any(state.reasons for state in states if state.stage.name == "complex_modes"):
+            self._try(self._look)
+
+    def follow(self, stage):
+        """A page after ``stage``, if it changed the answer and others are to come that may change it again."""
+        names = list(self._stages)
+        behind, ahead = names[:names.index(stage.name) + 1], names[names.index(stage.name) + 1:]
+        if stage.name in ANSWERING and "report" in ahead:
+            self._try(lambda: self._follow(behind, [name for name in ahead if name != "report"]))
+
+    def _look(self):
+        changes = coarse(self._job.case.sections)
+        if not changes:
+            return
+        from pipeline.views.pages.early import first_page
+
+        last = self._stages["complex_modes"]
+        run = self._job.looked_ahead(LOOK, changes, last, self._context)
+        modes = store.read(last.output, run.path(last.output))
+        self._show(*first_page(modes, self._card(), [name for name in self._stages if name != "report"]))
+
+    def _follow(self, behind, ahead):
+        from pipeline.views.pages.early import later_page
+
+        outputs = {name: self._stages[name].output for name in behind}
+        products = Products({name: lambda output=output: store.read(output, self._job.path(output))
+                             for name, output in outputs.items()})
+        self._show(*later_page(products, self._card(), ahead))
+
+    def _card(self):
+        return self._job.case.card(__version__)
+
+    def _show(self, sentence, page):
+        self._job.announce(self._stages["report"], PAGE, page)
+        self._say(f"after {time.monotonic() - self._begin:.0f} s: {sentence}")
+
+    def _try(self, show):
+        try:
+            show()
+        except Exception as error:      # whatever it is: the answer of the case does not depend on it
+            self._say(f"note: no page before the end of the run ({shortened(f'{type(error).__name__}: {error}', 300)})")

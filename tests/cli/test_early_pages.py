@@ -1,0 +1,85 @@
+"""What a reader learns while a chain runs; what goes wrong there leaves the run as it is."""
+
+import re
+from types import SimpleNamespace
+
+import pytest
+
+import stages
+from pipeline.cli import early_pages
+from pipeline.cli.early_pages import EarlyPages
+from pipeline.contract import Context, ConvergenceError
+from tests.views import products_for_views as small
+
+NAMES = "structure", "complex_modes", "convergence", "comparison", "report"
+
+
+class Job:
+    """A ChainRun whose products are at hand."""
+
+    def __init__(self):
+        self.stages = [SimpleNamespace(name=name, output=name) for name in NAMES]
+        self.case = SimpleNamespace(stages=self.stages, sections={}, card=lambda version: small.case())
+        self.pages, self.looks = [], 0
+
+    def planned(self, *stale):
+        return [SimpleNamespace(stage=stage, reasons=("new",) * (stage.name in stale)) for stage in self.stages]
+
+    def path(self, output):
+        return output
+
+    def looked_ahead(self, name, changes, last, context):
+        self.looks += 1
+        return self
+
+    def announce(self, stage, name, content):
+        self.pages.append((stage.name, name, content))
+
+
+@pytest.fixture
+def products(monkeypatch):
+    made = {name: getattr(small, name)() for name in ("structure", "complex_modes", "convergence")}
+    monkeypatch.setattr(early_pages.store, "read", lambda product, path: made[path])
+    monkeypatch.setattr(early_pages, "coarse", lambda sections: {"surface.nodes": 8})
+
+
+def opened(job):
+    said = []
+    return EarlyPages(job, Context(), said.append), said
+
+
+def test_a_first_look_then_a_page_after_each_stage_that_changes_the_answer(products):
+    job = Job()
+    early, said = opened(job)
+    early.open(job.planned("complex_modes"))
+    for stage in job.stages:
+        early.follow(stage)
+    assert [name for _, name, _ in job.pages] == ["report.html"] * 3 and len(said) == 3
+    assert "First look" in said[0] and "convergence: being computed" in said[1] and "Converged" in job.pages[2][2]
+    assert all(re.match(r"after \d+ s: ", line) for line in said)
+
+
+def test_no_look_where_the_modes_are_up_to_date(products):
+    job = Job()
+    early, said = opened(job)
+    early.open(job.planned("report"))
+    assert not job.looks and not said and not job.pages
+
+
+def test_a_look_that_fails_is_one_line_and_no_page(products, monkeypatch):
+    job = Job()
+    early, said = opened(job)
+
+    def failing(*_):
+        raise ConvergenceError("sliding state", "a residual of 1e-8", "2e-3")
+
+    monkeypatch.setattr(job, "looked_ahead", failing)
+    early.open(job.planned("complex_modes"))
+    assert len(said) == 1 and "no page before the end of the run (ConvergenceError: sliding state" in said[0]
+    assert not job.pages
+    early.follow(job.stages[1])
+    assert len(job.pages) == 1
+
+
+def test_the_names_are_those_of_stages():
+    assert set(early_pages.ANSWERING) <= set(stages.NAMES)
