@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from pipeline.cli import pace
 from pipeline.contract.received import process
 from pipeline.environment import ONE_THREAD
 from tests.cost import pytest_collection_finish, pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401
@@ -37,6 +38,14 @@ def _readers_here(request, monkeypatch):
     """Readers of files run in the process of the test; in processes of their own where it is marked ``apart``."""
     if not request.node.get_closest_marker("apart"):
         monkeypatch.setattr(process, "started", _read_here)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _notes_apart(tmp_path_factory):
+    """What runs of tests take is noted apart from what those of the user took."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pace, "user_folder", lambda: tmp_path_factory.mktemp("notes"))
+        yield
 
 
 def _read_here(reader, path, folder, limits, given):
