@@ -1,8 +1,8 @@
 """Stage probability: how likely unstable modes are over the declared scatter of a brake.
 
 Draws are made before the fan-out and solved in rounds of one size, after each of which it is decided whether they are
-enough, so that the number of workers changes no bit. Each is solved on bases that all draws of one pressure share; a few
-are solved in the whole reduced model as well, which states the error, and for all their roots on the common bases.
+enough, so that the number of workers changes no bit. Each is solved on bases that all draws of one pressure share; a
+few are solved in the whole reduced model as well, which states the error, and for all roots on the common bases.
 """
 
 from dataclasses import replace
@@ -50,8 +50,8 @@ class Settings(Section):
 
     draws: int = option(500, "most draws; 0 = none, and no probability", ge=0)
     interval: float = option(
-        0.05, "no more draws are made once the 95 % interval of the share that squeals at any operating point lies within"
-        " this of it; 0 = all are made", ge=0, lt=1)
+        0.05, "no more draws are made once the 95 % interval of the share that squeals at any operating point lies"
+        " within this of it; 0 = all are made", ge=0, lt=1)
     least_draws: int = option(100, "draws that are made in any case, for what the causes say", ge=0)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
@@ -82,9 +82,9 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     Method:
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
     point, each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the
-    whole reduced model as well. From {least_draws} draws on, no more were made once the interval of 'overall' was within
-    {interval} of it. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only; sensitivities
-    are first-order Sobol indices of the largest growth rate.
+    whole reduced model as well. From {least_draws} draws on, none were added once the interval of 'overall' was
+    within {interval} of it. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only;
+    sensitivities are first-order Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
@@ -98,7 +98,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
     cases, modes = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
     values = values[:len(modes)]
-    checked = context.map(partial(_checked, points), _checks(cases, drawn[:len(modes)], points, settings), "whole model")
+    checks = _checks(cases, drawn[:len(modes)], points, settings)
+    checked = context.map(partial(_checked, points), checks, "whole model")
     return Probability(
         source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
         scatter=[standard_deviation(s, errors) for s in settings.sources], value=values, most_draws=settings.draws,

@@ -8,8 +8,8 @@ are neither small nor symmetric.
 2. Its roots that grow, or nearly do, are where to start: they are solved for in all coordinates without these
    simplifications, by residual inverse iteration.
 
-Where one of these is not found, two become one, or one grows faster than it started by more than the margin by which they
-were picked, so that others may have been left out, the condensation does not serve: then all roots are computed.
+Where one of these is not found, two become one, or one grows faster than it started by more than the margin by which
+they were picked, so that others may have been left out, the condensation does not serve: then all roots are computed.
 """
 
 from dataclasses import dataclass
@@ -123,7 +123,7 @@ class _Condensed:
         k = len(self.mass)
         turned = np.linalg.solve(self.mass, np.hstack((self.stiffness, self.damping)))
         pace = np.sqrt(np.linalg.norm(turned[:, :k]))
-        companion = np.zeros((2 * k, 2 * k), turned.dtype)
+        companion = np.zeros((2 * k, 2 * k), self.damping.dtype)
         companion[:k, k:][np.diag_indices(k)] = 1.0
         companion[k:, :k], companion[k:, k:] = -turned[:, :k] / pace**2, -turned[:, k:] / pace
         return pace * scipy.linalg.eigvals(companion, overwrite_a=True, check_finite=False).astype(complex)

@@ -51,8 +51,8 @@ def ended(probability):
     made, most, within = len(probability.value), int(probability.most_draws), float(probability.within)
     reached = abs(probability.overall_interval - probability.overall).max()
     if made < most:
-        return (f"Of at most {most} no more were made, as the interval of the probability at any operating point is within"
-                f" {percent(within)} of it.")
+        return (f"Of at most {most} no more were made, as the interval of the probability at any operating point is"
+                f" within {percent(within)} of it.")
     if within and reached > within:
         return (f"All that were allowed were made, and the interval of the probability at any operating point is still"
                 f" {percent(reached)} wide to one side, more than {percent(within)}: allow more (probability.draws).")
@@ -63,9 +63,9 @@ def solved(probability):
     """How the roots of the draws were found, in one sentence."""
     points, whole = probability.growth.size, int(probability.whole_spectra)
     residual = probability.root_residual.max(initial=0.0)
-    text = (f"{plural(len(probability.root), 'unstable root')} of {plural(points, 'draw')} and operating point, each with"
-            f" a residual of at most {quantity(residual, '1/s', 2)} on the common bases; {whole} of these were solved by"
-            " all their roots, as a few did not serve.")
+    text = (f"{plural(len(probability.root), 'unstable root')} of {plural(points, 'combination')} of draw"
+            f" and operating point, each with a residual of at most {quantity(residual, '1/s', 2)} on the common bases;"
+            f" {whole} of these combinations were solved for all their roots, as a few did not serve.")
     if int(probability.checked_draws):
         text += (f" Of {plural(int(probability.checked_draws), 'checked draw')}, {int(probability.spectrum_differ)} had"
                  " other growing roots among all of them.")
