@@ -1,9 +1,11 @@
 """Stage probability: how likely unstable modes are over the declared scatter of a brake.
 
-Draws are made before the fan-out, so that the number of workers changes no bit. Each is solved on bases that all draws
-of one pressure share; a few are solved in the whole reduced model as well, which states the error.
+Draws are made before the fan-out and solved in rounds of one size, after each of which it is decided whether they are
+enough, so that the number of workers changes no bit. Each is solved on bases that all draws of one pressure share; a
+few are solved in the whole reduced model as well, which states the error, and for all roots on the common bases.
 """
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -37,8 +39,8 @@ from pipeline.physics.stability.whole_roots import accuracy, beside_whole
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel
 
 TWO_PI = 2.0 * np.pi
-#: draws of one task of the fan-out
-_CHUNK = 50
+#: draws of one round, and of one task of the fan-out
+_ROUND, _CHUNK = 50, 25
 #: lowest 1/3 octave band, Hz
 _LOWEST_BAND = 200.0
 
@@ -46,7 +48,11 @@ _LOWEST_BAND = 200.0
 class Settings(Section):
     """What scatters, and how many draws are made of it."""
 
-    draws: int = option(500, "draws; 0 = none, and no probability", ge=0)
+    draws: int = option(500, "most draws; 0 = none, and no probability", ge=0)
+    interval: float = option(
+        0.05, "no more draws are made once the 95 % interval of the share that squeals at any operating point lies"
+        " within this of it; 0 = all are made", ge=0, lt=1)
+    least_draws: int = option(100, "draws that are made in any case, for what the causes say", ge=0)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
     speeds: Speeds = option(
@@ -74,9 +80,10 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     'overall' counts draws with one at any point. Lower modes count in their 1/3 octaves only.
 
     Method:
-    {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating point,
-    each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the whole
-    reduced model as well. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only;
+    At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
+    point, each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the
+    whole reduced model as well. From {least_draws} draws on, none were added once the interval of 'overall' was
+    within {interval} of it. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only;
     sensitivities are first-order Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
@@ -89,14 +96,18 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     others = draw_values(settings.sources, errors, settings.training, np.random.default_rng([settings.seed, 1]))
     training = [NOMINAL, *(factors_of(settings.sources, row, model) for row in others)]
     families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
-    cases, roots = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
-    checked = context.map(partial(_checked, points), _checks(cases, drawn, points, settings), "whole model")
+    cases, modes = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
+    values = values[:len(modes)]
+    checks = _checks(cases, drawn[:len(modes)], points, settings)
+    checked = context.map(partial(_checked, points), checks, "whole model")
     return Probability(
         source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
-        scatter=[standard_deviation(s, errors) for s in settings.sources], value=values,
+        scatter=[standard_deviation(s, errors) for s in settings.sources], value=values, most_draws=settings.draws,
+        least_draws=settings.least_draws, within=settings.interval,
         pressure=np.repeat(model.pressure, len(points.speeds)), speed=np.tile(points.speeds, len(model.pressure)),
-        **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),
-        **accuracy(checked), least_growth=settings.least_growth, squeal_from=points.squeal_from)
+        **_results(modes, values, points, len(model.pressure) * len(points.speeds), settings),
+        **accuracy([whole for whole, _ in checked]), spectrum_differ=sum(differs for _, differs in checked),
+        least_growth=settings.least_growth, squeal_from=points.squeal_from)
 
 
 def _refuse_effects(effects, settings):
@@ -107,30 +118,44 @@ def _refuse_effects(effects, settings):
 
 
 def _solved(families, drawn, training, points, settings, context):
-    """(Sampled of every pressure, roots [draw][operating point])."""
+    """(Sampled of every pressure, Growing [draw][operating point]) of as many draws as the statement needs."""
     cases = context.map(partial(_sampled, points, training, settings.smallest_correction), families, "common bases")
-    chunks = [range(k, min(k + _CHUNK, len(drawn))) for k in range(0, len(drawn), _CHUNK)]
-    tasks = [(case.compact(), points.speeds, [(k, drawn[k]) for k in chunk]) for case in cases for chunk in chunks]
-    parts = context.map(_roots, tasks, "draws")
-    per_case = [sum(parts[k:k + len(chunks)], []) for k in range(0, len(parts), len(chunks))]
-    return cases, [[root for case in per_case for root in case[k]] for k in range(len(drawn))]
+    few, modes = [case.compact() for case in cases], []
+    while len(modes) < len(drawn) and not _enough(modes, points, settings):
+        numbers = range(len(modes), min(len(modes) + _ROUND, len(drawn)))
+        chunks = [numbers[k:k + _CHUNK] for k in range(0, len(numbers), _CHUNK)]
+        tasks = [(case, points.speeds, [(k, drawn[k]) for k in chunk]) for case in few for chunk in chunks]
+        parts = context.map(_modes, tasks, "draws")
+        per_case = [sum(parts[k:k + len(chunks)], []) for k in range(0, len(parts), len(chunks))]
+        modes += [[each for case in per_case for each in case[k]] for k in range(len(numbers))]
+    return cases, modes
+
+
+def _enough(modes, points, settings):
+    """Whether so many draws say how likely squeal is at any operating point."""
+    if not settings.interval or len(modes) < max(settings.least_draws, 1):
+        return False
+    unstable = _unstable(modes, points, settings)
+    hits = squealing(unstable["root"], unstable["root_draw"], unstable["root_operating"], (len(modes), len(modes[0])),
+                     points.squeal_from).any(axis=1)
+    return max(abs(np.array(rate_interval(hits.sum(), len(hits))) - hits.mean())) <= settings.interval
 
 
 def _sampled(points, training, smallest, case):
     return sampled(case, points.speeds, points.frequency_max, training, smallest)
 
 
-def _roots(task):
-    """[draw][speed]: roots (r,) of some draws at one pressure."""
+def _modes(task):
+    """[draw][speed]: Growing of some draws at one pressure, without shapes."""
     case, speeds, drawn = task
-    roots = []
+    modes = []
     for number, factors in drawn:
         try:
-            roots.append([case.roots(factors, speed) for speed in speeds])
+            modes.append([replace(case.modes(factors, speed), shape=np.empty((0, 0))) for speed in speeds])
         except ConvergenceError as error:
             raise ConvergenceError(f"draw {number}: {error.where}", error.expected, error.found,
                                    error.remedy) from error
-    return roots
+    return modes
 
 
 def _checks(cases, drawn, points, settings):
@@ -141,26 +166,36 @@ def _checks(cases, drawn, points, settings):
 
 
 def _checked(points, task):
+    """(what ``beside_whole`` says, whether all roots on the common bases say otherwise) of a draw."""
     case, speed, factors = task
-    return beside_whole(case, factors, speed, points.frequency_max)
+    return beside_whole(case, factors, speed, points.frequency_max), case.missed(factors, speed) > 0
 
 
-def _results(roots, values, points, operating, settings):
+def _unstable(modes, points, settings):
+    """{root, root_residual (k,) 1/s, root_draw, root_operating (k,)} of all that count as unstable."""
+    rows = [(draw, operating, root, residual) for draw, of_draw in enumerate(modes)
+            for operating, each in enumerate(of_draw)
+            for root, residual in zip(each.value, each.residual, strict=True)
+            if root.real > max(points.neutral * abs(root), settings.least_growth)]
+    names = ("root_draw", int), ("root_operating", int), ("root", complex), ("root_residual", float)
+    return {name: np.array([row[k] for row in rows], kind) for k, (name, kind) in enumerate(names)}
+
+
+def _results(modes, values, points, operating, settings):
     """Fields of growth, unstable roots, probabilities and sensitivities."""
-    count = len(roots)
-    growth = np.reshape([[point[0].real if len(point) else -np.inf for point in draw] for draw in roots],
+    count = len(modes)
+    growth = np.reshape([[each.value[0].real if len(each.value) else -np.inf for each in draw] for draw in modes],
                         (count, operating))
     growth = np.maximum(growth, -TWO_PI * points.frequency_max)
-    found = [(k, o, s) for k, draw in enumerate(roots) for o, point in enumerate(draw) for s in point
-             if s.real > max(points.neutral * abs(s), settings.least_growth)]
-    draw, place, root = (np.array([f[c] for f in found], kind) for c, kind in enumerate((int, int, complex)))
+    unstable = _unstable(modes, points, settings)
+    root, draw, place = (unstable[name] for name in ("root", "root_draw", "root_operating"))
     middles = third_octaves(_LOWEST_BAND, points.frequency_max)
     hits = squealing(root, draw, place, (count, operating), points.squeal_from)
     bands = np.zeros((count, len(middles), operating), bool)
     bands[draw, among_bands(root, middles), place] = True
     anywhere, index = bands.any(axis=2), first_order(values, growth.max(axis=1), settings.seed)
     return {
-        "growth": growth, "root_draw": draw, "root_operating": place, "root": root,
+        **unstable, "growth": growth, "whole_spectra": sum(each.whole for draw in modes for each in draw),
         "probability": _share(hits), "interval": _intervals(hits), "overall": _share(hits.any(axis=1)[:, None])[0],
         "overall_interval": _intervals(hits.any(axis=1)[:, None])[0], "band": middles,
         "band_probability": _share(bands), "band_any": _share(anywhere), "band_interval": _intervals(anywhere),

@@ -83,7 +83,7 @@ class Convergence:
     converged: Array = count("", "1 if everything is refined and all unstable modes stay within the tolerances")
 
 
-@product(version=3)
+@product(version=4)
 class Probability:
     """Unstable modes over the scatter of a brake: seeded draws, and what they say of each operating point."""
 
@@ -91,12 +91,17 @@ class Probability:
     origin: Array = text("source", "law of its scatter: distribution and width")
     scatter: Array = quantity("1", "source", "standard deviation of what it adds to friction, or of its factor; of the logarithm of a lognormal one")
     value: Array = quantity("1", "draw source", "drawn factor on the nominal value; of friction the change of mu, or of its slope over a logarithm")
+    most_draws: Array = count("", "most draws that were allowed")
+    least_draws: Array = count("", "draws that were made in any case")
+    within: Array = quantity("1", "", "distance of the ends of overall_interval from overall that ended the draws; 0 for none")
     pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
     speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")
     growth: Array = quantity("1/s", "draw operating", "largest growth rate below the frequency limit")
     root_draw: Array = count("root", "draw of each unstable root")
     root_operating: Array = count("root", "operating point of each unstable root")
     root: Array = quantity("1/s", "root", "unstable roots of all draws", complex)
+    root_residual: Array = quantity("1/s", "root", "residual of each in the model on the common bases, over the slope of its matrix")
+    whole_spectra: Array = count("", "draws and operating points that were solved by all roots on the common bases, as a few did not serve")
     probability: Array = quantity("1", "operating", "share of the draws that squeal: with an unstable mode from squeal_from on")
     interval: Array = quantity("1", "operating end", "95 % Wilson interval of it")
     overall: Array = quantity("1", "", "share of the draws that squeal at any operating point")
@@ -112,6 +117,7 @@ class Probability:
     whole_root: Array = quantity("1/s", "checked", "the same roots in the whole reduced model", complex)
     checked_draws: Array = count("", "draws and operating points of this comparison")
     missed: Array = count("", "unstable roots there that only one of both has")
+    spectrum_differ: Array = count("", "of these draws, those whose growing roots differ from all roots on the common bases")
     least_growth: Array = quantity("1/s", "", "growth rate up to which a mode counts as stable")
     squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal")
 

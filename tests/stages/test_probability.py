@@ -78,6 +78,21 @@ def test_another_seed_gives_other_draws_and_a_like_probability(brake, made):
     assert other.overall_interval[0] < made.overall_interval[1] and made.overall_interval[0] < other.overall_interval[1]
 
 
+def test_no_more_draws_are_made_than_the_statement_needs(brake):
+    """The same draws as without an end, in rounds of 50, until the interval is within what is asked for."""
+    wide = {"draws": 200, "checked": 0, "sources": SOURCES, "interval": 0.14}
+    ended = probability(*brake, settings=Settings(least_draws=0, **wide))
+    assert len(ended.value) == 50 and int(ended.most_draws) == 200
+    assert abs(ended.overall_interval - ended.overall).max() <= 0.14
+    narrow = probability(*brake, settings=Settings(least_draws=60, **wide))
+    assert len(narrow.value) == 100 and np.array_equal(narrow.value[:50], ended.value)
+    np.testing.assert_array_equal(narrow.growth[:50], ended.growth)
+
+
+def test_all_roots_on_the_common_bases_say_the_same(made):
+    assert int(made.spectrum_differ) == 0 and made.root_residual.max() < 1.0
+
+
 def test_unknown_parts_are_refused_before_anything_is_computed(brake):
     with pytest.raises(ConfigError, match="abutment_outer_leading_radial"):
         probability(*brake, settings=Settings(sources=({"kind": "joint_loss", "part": "fingre", "variation": 0.5},)))

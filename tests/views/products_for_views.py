@@ -374,8 +374,9 @@ def probability(draws=60):
     band = 1e3 * 10 ** (np.arange(-7, 14) / 10)
     return filled(
         Probability, source=["joint_stiffness:finger", "damping_speed", "friction"],
-        origin=["lognormal, coefficient of variation 0.3"] * 3, value=value, pressure=OPERATING_PRESSURE,
-        speed=OPERATING_SPEED, growth=growth, root_draw=draw, root_operating=operating,
+        origin=["lognormal, coefficient of variation 0.3"] * 3, value=value, most_draws=draws, least_draws=20,
+        within=0.05, whole_spectra=3, root_residual=np.full(len(draw), 2e-4), spectrum_differ=0,
+        pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, growth=growth, root_draw=draw, root_operating=operating,
         root=growth[draw, operating] + 50e3j, probability=share, interval=np.clip(share[:, None] + ends, 0, 1),
         overall=share.max(), overall_interval=np.clip(share.max() + ends, 0, 1), band=band,
         band_probability=np.where(abs(band / 8e3 - 1) < 0.3, 1.0, 0.0)[:, None] * share,

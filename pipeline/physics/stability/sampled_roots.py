@@ -9,12 +9,13 @@ in the whole model, and joins V.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.modal.growing_roots import growing_roots
+from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
 from pipeline.physics.modal.natural_modes import all_modes
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
@@ -24,6 +25,8 @@ from pipeline.physics.stability.scatter import NOMINAL
 
 #: what joins the basis for the training: amplitudes above this share of the mode
 _JOINING = 1e-4
+#: growth rate in 1/s from which on roots are compared, and the share of them within which they are the same
+_GROWS, _SAME = 1e-2, 1e-6
 
 
 @dataclass(frozen=True)
@@ -57,26 +60,37 @@ class Sampled:
 
         Only those below the frequency limit. Raises ConvergenceError where a draw has no sliding state.
         """
-        return self.modes(factors, speed)[0]
+        return self.modes(factors, speed).value
 
     def modes(self, factors, speed):
-        """(``roots``, their shapes (m, r) on the basis)."""
-        return growing_roots(*self._matrices(factors, speed, self.sliding.slide(factors, speed)),
-                             2 * np.pi * self.below)
+        """Growing: ``roots``, their shapes (m, r) on the basis and their residuals."""
+        return growing_roots(*self.matrices(factors, speed), 2 * np.pi * self.below)
 
-    def _matrices(self, factors, speed, contact):
-        """(C, K without friction and losses, what these add to it) of a draw, each (m, m), the last complex."""
-        body, imaginary = self._bodies(factors, speed)
-        normal = self.small.contacts.normal
-        drawn, damping = self._friction(factors, speed, contact)
+    def spectrum(self, factors, speed):
+        """Growing of a draw as of ``modes``, from all its roots on the basis."""
+        return spectrum_roots(*self.matrices(factors, speed), 2 * np.pi * self.below)
+
+    def missed(self, factors, speed):
+        """Number of growing roots of a draw that only one of ``modes`` and ``spectrum`` has."""
+        some, every = (each.value[each.value.real > _GROWS]
+                       for each in (self.modes(factors, speed), self.spectrum(factors, speed)))
+        same = abs(some[:, None] - every) <= _SAME * abs(every)
+        return int(np.sum(~same.any(axis=0)) + np.sum(~same.any(axis=1)))
+
+    def matrices(self, factors, speed):
+        """(C, K without friction and losses, what these add to it) of a draw about its sliding state, each (m, m), the
+        last complex."""
+        contact = self.sliding.slide(factors, speed)
+        stiffness, imaginary = self._bodies(factors, speed)
+        pressed, drawn, drag = self._contacts(factors, speed, contact)
         joints = self.small.joints
-        damping = damping + self.small.damping
+        damping = drag + self.small.damping
         if joints.damping.any():
             viscous = joints.damping * factors.joint_stiffness * factors.joint_loss
             damping = damping + spread(joints.rows, viscous, joints.rows)
         if self.family.gyroscopic:
             damping = damping + speed * self.small.gyroscopic
-        return damping, body + spread(normal, contact.stiffness, normal), drawn + 1j * imaginary
+        return damping, stiffness + pressed, drawn + 1j * imaginary
 
     def _bodies(self, factors, speed):
         """(real, imaginary) stiffness (m, m) N/m of bodies and joints of a draw."""
@@ -85,25 +99,34 @@ class Sampled:
         lossy = weight * factors.joint_loss * family.joint_loss_factor
         lost = np.broadcast_to(factors.body_loss, len(self.loss))
         stiffness = self.small.stiffness + spread(joints.rows, weight, joints.rows)
-        imaginary = np.tensordot(lost, self.loss, 1) + spread(joints.rows, lossy, joints.rows)
+        imaginary = _weighted(lost, self.loss, self._all_loss) + spread(joints.rows, lossy, joints.rows)
         if family.centrifugal:
             stiffness = stiffness + speed**2 * self.small.centrifugal
         if self.lining is not None:
             more = factors.lining - 1
-            stiffness = stiffness + more * self.lining.sum(axis=0)
-            imaginary = imaginary + np.tensordot(more * family.lining_loss_factor * lost, self.lining, 1)
+            stiffness = stiffness + more * self._all_lining
+            imaginary = imaginary + more * family.lining_loss_factor * _weighted(lost, self.lining, self._all_lining)
         return stiffness, imaginary
 
-    def _friction(self, factors, speed, contact):
-        """(K_f, C_f) (m, m) of friction and contact damping of a draw, as of ``SlidingModel.linearised``."""
+    @cached_property
+    def _all_loss(self):
+        return self.loss.sum(axis=0)
+
+    @cached_property
+    def _all_lining(self):
+        return self.lining.sum(axis=0)
+
+    def _contacts(self, factors, speed, contact):
+        """(K without friction, K_f, C) (m, m) of the contacts of a draw, as of ``SlidingModel.linearised``."""
         model, state = _about(self.family, self.small.at_speed(speed), factors, contact)
         contacts, coupling = model.contacts, model.coupling(state)
         drag = (contacts.normal.T + contacts.tangent.T * coupling) * contacts.damping @ contacts.normal
         if np.any(state.speed_slope):
             drag += spread(contacts.tangent, contacts.preload * state.speed_slope, contacts.tangent)
         if self.family.friction_damping:
-            drag += spread(contacts.lateral, model.turning_drag(state.coefficient), contacts.lateral)
-        return spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal), drag
+            drag += _squared(contacts.lateral, model.turning_drag(state.coefficient))
+        return (_squared(contacts.normal, contact.stiffness),
+                spread(contacts.tangent, coupling * contact.stiffness, contacts.normal), drag)
 
 
 def sampled(family, speeds, below, training=(NOMINAL,), smallest=1e-2):
@@ -129,6 +152,19 @@ def _on(sliding, basis, below):
     family = sliding.family
     lining = None if family.lining is None else _by_body(family, family.lining, basis)
     return Sampled(sliding, basis, family.model.projected(basis), _by_body(family, family.loss, basis), lining, below)
+
+
+def _weighted(weight, parts, whole):
+    """Sum (m, m) of the ``parts`` (b, m, m), which make the ``whole``, each with its ``weight`` (b,)."""
+    return weight[0] * whole if len(weight) and (weight == weight[0]).all() else np.tensordot(weight, parts, 1)
+
+
+def _squared(rows, weight):
+    """``spread`` of ``rows`` (c, m) with themselves, half the work where no ``weight`` (c,) is negative."""
+    if np.any(weight < 0):
+        return spread(rows, weight, rows)
+    half = np.sqrt(weight)[:, None] * rows
+    return half.T @ half
 
 
 def _about(family, model, factors, contact):
@@ -159,9 +195,8 @@ def _missing(first, about, training, speed):
     high = square > (2 * np.pi * first.below) ** 2
     answers = [np.empty((family.model.size, 0))]
     for factors in training:
-        roots, shapes = first.modes(factors, speed)
-        contact = first.sliding.slide(factors, speed)
-        for root, shape in zip(roots, (first.basis @ shapes).T, strict=True):
+        growing, contact = first.modes(factors, speed), first.sliding.slide(factors, speed)
+        for root, shape in zip(growing.value, (first.basis @ growing.shape).T, strict=True):
             force = modes[:, high].T @ _residual(family, factors, speed, contact, root, shape)
             answer = modes[:, high] @ (force / (square[high] - abs(root) ** 2)) / np.linalg.norm(shape @ mass)
             answers.append(np.column_stack((answer.real, answer.imag)))

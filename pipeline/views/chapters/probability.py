@@ -21,12 +21,12 @@ def chapter(probability, look):
     return Chapter(
         "probability", "How likely",
         f"{len(probability.value)} draws of {plural(len(probability.source), 'source')} of scatter, each source"
-        " independent of the others. A draw squeals at an operating point if a mode from"
+        f" independent of the others. {ended(probability)} A draw squeals at an operating point if a mode from"
         f" {quantity(float(probability.squeal_from), 'Hz')} on grows there by more than"
         f" {quantity(float(probability.least_growth), '1/s')}. The intervals (95 %, Wilson) speak of the number of"
         " draws, not of the scatter that was assumed.",
         statement(probability), _figures(probability), (_sources(probability), _bands(probability)),
-        (accuracy(probability),))
+        (accuracy(probability), solved(probability)))
 
 
 def statement(probability):
@@ -44,6 +44,32 @@ def statement(probability):
                f" growth rate, more of it {_sign(probability.trend[k])})"
                for k in order if probability.sensitivity[k] > 0]
     return f"{first} What matters most: {', then '.join(matters)}." if matters else first
+
+
+def ended(probability):
+    """Why no more draws were made, in one sentence."""
+    made, most, within = len(probability.value), int(probability.most_draws), float(probability.within)
+    reached = abs(probability.overall_interval - probability.overall).max()
+    if made < most:
+        return (f"Of at most {most} no more were made, as the interval of the probability at any operating point is"
+                f" within {percent(within)} of it.")
+    if within and reached > within:
+        return (f"All that were allowed were made, and the interval of the probability at any operating point is still"
+                f" {percent(reached)} wide to one side, more than {percent(within)}: allow more (probability.draws).")
+    return "All that were allowed were made."
+
+
+def solved(probability):
+    """How the roots of the draws were found, in one sentence."""
+    points, whole = probability.growth.size, int(probability.whole_spectra)
+    residual = probability.root_residual.max(initial=0.0)
+    text = (f"{plural(len(probability.root), 'unstable root')} of {plural(points, 'combination')} of draw"
+            f" and operating point, each with a residual of at most {quantity(residual, '1/s', 2)} on the common bases;"
+            f" {whole} of these combinations were solved for all their roots, as a few did not serve.")
+    if int(probability.checked_draws):
+        text += (f" Of {plural(int(probability.checked_draws), 'checked draw')}, {int(probability.spectrum_differ)} had"
+                 " other growing roots among all of them.")
+    return text
 
 
 def in_words(source):

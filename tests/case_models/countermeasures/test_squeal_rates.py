@@ -23,7 +23,7 @@ def without(product, share):
     """The product without the first ``share`` of its unstable roots."""
     kept = slice(int(share * len(product.root)), None)
     return replace(product, root=product.root[kept], root_draw=product.root_draw[kept],
-                   root_operating=product.root_operating[kept])
+                   root_operating=product.root_operating[kept], root_residual=product.root_residual[kept])
 
 
 def test_hits_are_those_of_the_probabilities(base):

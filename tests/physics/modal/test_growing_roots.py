@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.physics.modal.growing_roots import growing_roots
+from pipeline.physics.modal import growing_roots as growing
+from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
 
 #: all rad/s: frequencies of the modes lie between these, roots are sought below the limit
 LOWEST, HIGHEST, LIMIT = 1e3, 2e5, 5e4
@@ -41,19 +42,47 @@ def test_growing_roots_and_the_least_stable_one_are_those_of_all_roots(damped, g
     grown = 0
     for seed in range(12):
         matrices = system(seed, damped)
-        exact, (roots, shapes) = every_root(*matrices), growing_roots(*matrices, LIMIT)
+        exact, modes = every_root(*matrices), growing_roots(*matrices, LIMIT)
+        roots = modes.value
         sought = exact[exact.real > SURE * abs(exact)] if (exact.real > 0).any() else exact[:1]
         for root in sought:
             assert abs(roots - root).min() < 1e-7 * abs(root)
         assert all(abs(exact - root).min() < 1e-7 * abs(root) for root in roots)
         assert (np.diff(roots.real) <= 0).all()
-        for root, shape in zip(roots, shapes.T, strict=True):
+        for root, shape, residual in zip(roots, modes.shape.T, modes.residual, strict=True):
             force = root * (root * shape + matrices[0] @ shape) + (matrices[1] + matrices[2]) @ shape
-            assert np.linalg.norm(force) < 1e-6 * abs(root) ** 2
+            assert np.linalg.norm(force) < 1e-6 * abs(root) ** 2 and residual < 1e-6 * abs(root)
+            slope = 2 * root * shape + matrices[0] @ shape
+            assert residual == pytest.approx(np.linalg.norm(force) / np.linalg.norm(slope), rel=1e-3, abs=1e-9)
         grown += np.sum(exact.real > 0)
     assert grown >= grow
 
 
+def test_all_roots_say_what_the_condensed_system_says():
+    seeds, condensed = range(4), 0
+    for seed in seeds:
+        matrices = system(seed, 0.02)
+        some, every = growing_roots(*matrices, LIMIT), spectrum_roots(*matrices, LIMIT)
+        grow = every.value[every.value.real > 0]
+        np.testing.assert_allclose(some.value[some.value.real > 0], grow, rtol=1e-7)
+        assert every.whole and len(grow)
+        condensed += not some.whole
+    assert condensed
+
+
+@pytest.mark.exact
+def test_where_the_condensation_does_not_serve_all_roots_are_computed(monkeypatch):
+    """A small problem whose roots all lie too far down is seen, and no root lost."""
+    honest = growing.__dict__["_Condensed"].roots
+    monkeypatch.setattr(growing.__dict__["_Condensed"], "roots",
+                        lambda self: honest(self) - (100.0 if len(self.mass) < 140 else 0.0))
+    matrices = system(0, 0.02)
+    modes, exact = growing_roots(*matrices, LIMIT), every_root(*matrices)
+    assert modes.whole and (exact.real > 0).any()
+    for root in exact[exact.real > 0]:
+        assert abs(modes.value - root).min() < 1e-7 * abs(root)
+
+
 def test_no_mode_below_the_limit_is_no_root():
-    roots, shapes = growing_roots(np.zeros((2, 2)), np.diag([1e8, 2e8]), np.zeros((2, 2), complex), 1e3)
-    assert roots.shape == (0,) and shapes.shape == (2, 0)
+    modes = growing_roots(np.zeros((2, 2)), np.diag([1e8, 2e8]), np.zeros((2, 2), complex), 1e3)
+    assert modes.value.shape == modes.residual.shape == (0,) and modes.shape.shape == (2, 0)
