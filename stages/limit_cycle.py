@@ -87,8 +87,28 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     (solver: {solver}; compiled code does the linear part exactly), roots that grow or nearly do being those of the
     complex modes; contact laws and friction at patches of at most {patch} contacts. Modes above those of the complex
     modes have a damping ratio of at least {damping_above}. The motion lasted {duration}, levels are root mean squares
-    over {window}.
+    over {window}. Where a motion outgrew all bounds, steps were halved.
     """
+    for halved in range(_HALVINGS):
+        shorter = settings.model_copy(update={"step": settings.step / 2**halved})
+        try:
+            return _simulated(model, friction_map, modes, effects, shorter, context)
+        except _OutOfBounds as error:
+            context.log(f"with steps of {shorter.step:.3g} s a motion reached {error.found}: half the step is tried")
+    return _simulated(model, friction_map, modes, effects,
+                      settings.model_copy(update={"step": settings.step / 2**_HALVINGS}), context)
+
+
+#: how often steps are halved at most
+_HALVINGS = 2
+
+
+class _OutOfBounds(ConvergenceError):
+    """A motion that no contact limits: of too long a step, or of too large patches."""
+
+
+def _simulated(model, friction_map, modes, effects, settings, context):
+    """LimitCycle with the step of the settings; ConvergenceError for a motion that nothing limits."""
     points = _points(modes, settings)
     terms = kept(physics_terms(effects), settings.without)
     simulate = partial(_simulate, model=model, friction_map=friction_map, modes=modes, terms=terms,
@@ -202,9 +222,9 @@ def _cycle(system, start, sensor_rows, settings, book=True):
         end, velocity = run.end, (rows @ run.state.T).real
         levels.append(np.sqrt((velocity**2).mean(axis=1)))
         if not levels[-1].max(initial=0.0) < _UNBOUNDED:
-            raise ConvergenceError("limit_cycle", "a motion that contact limits", f"{levels[-1].max():.3g} m/s after"
-                                   f" {(number + 1) * settings.window:.3g} s", "lower limit_cycle.patch, so that more"
-                                   " patches see the motion")
+            raise _OutOfBounds("limit_cycle", "a motion that contact limits", f"{levels[-1].max():.3g} m/s after"
+                               f" {(number + 1) * settings.window:.3g} s", "lower limit_cycle.patch, so that more"
+                               f" patches see the motion, or limit_cycle.step below {settings.step:.3g} s")
         opened.append(run.open.mean())
         stuck.append(run.stick.mean())
         signals.append(velocity)

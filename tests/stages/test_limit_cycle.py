@@ -1,6 +1,8 @@
 """Stage limit_cycle on a brake of a few elements."""
 
 import io
+from functools import partial
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -13,8 +15,10 @@ from stages.complex_modes import complex_modes
 from stages.limit_cycle import CHECKS, Settings, limit_cycle
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
+from tests.effects.systems import Telling
 from tests.stages.small_structure import small_friction_map, small_structure
 
+stage = import_module("stages.limit_cycle")
 SETTINGS = {"duration": "120 ms", "window": "20 ms", "step": "5 us", "patch": 1, "checks": ("step",)}
 #: for what needs no limit cycle
 SHORT = SETTINGS | {"duration": "6 ms", "window": "2 ms"}
@@ -99,10 +103,34 @@ def test_every_check_changes_one_thing(model, modes):
     assert np.isfinite(cycle.check_level).all()
 
 
-def test_patches_too_large_to_limit_the_motion_are_refused(model, modes):
-    with pytest.raises(ConvergenceError, match="patch"):
+def test_patches_too_large_to_limit_the_motion_are_refused_after_shorter_steps(model, modes):
+    told = Telling()
+    with pytest.raises(ConvergenceError, match="smaller patches|lower limit_cycle.patch"):
         limit_cycle(model, small_friction_map(0.6), modes, settings=Settings(
-            **SETTINGS | {"patch": 4, "speeds": "middle", "checks": ()}))
+            **SETTINGS | {"patch": 4, "speeds": "middle", "checks": ()}), context=told)
+    assert "with steps of 5e-06 s a motion reached" in told.lines[0]
+
+
+@pytest.mark.parametrize("failing", [1, 2, 3])
+def test_a_step_at_which_motion_has_no_bounds_is_halved_twice(model, modes, monkeypatch, failing):
+    """The result is that of the first step that serves, and says so."""
+    simulated, seen = stage._simulated, []
+
+    def tried(*given):
+        seen.append(given[4].step)
+        if len(seen) <= failing:
+            raise stage._OutOfBounds("limit_cycle", "bounds", "none")
+        return simulated(*given)
+
+    monkeypatch.setattr(stage, "_simulated", tried)
+    run = partial(limit_cycle, model, small_friction_map(0.6), modes, settings=Settings(
+        **SHORT | {"speeds": "middle", "checks": ()}))
+    if failing < 3:
+        assert float(run().step) == seen[-1]
+    else:
+        with pytest.raises(ConvergenceError, match="expected bounds, found none"):
+            run()
+    assert seen == pytest.approx([5e-6, 2.5e-6, 1.25e-6][:failing + 1])
 
 
 def test_without_unstable_modes_nothing_is_simulated(model):
