@@ -103,12 +103,10 @@ def test_every_check_changes_one_thing(model, modes):
     assert np.isfinite(cycle.check_level).all()
 
 
-def test_patches_too_large_to_limit_the_motion_are_refused_after_shorter_steps(model, modes):
-    told = Telling()
+def test_patches_too_large_to_limit_the_motion_are_refused(model, modes):
     with pytest.raises(ConvergenceError, match="smaller patches|lower limit_cycle.patch"):
         limit_cycle(model, small_friction_map(0.6), modes, settings=Settings(
-            **SETTINGS | {"patch": 4, "speeds": "middle", "checks": ()}), context=told)
-    assert "with steps of 5e-06 s a motion reached" in told.lines[0]
+            **SETTINGS | {"patch": 4, "speeds": "middle", "checks": ()}))
 
 
 @pytest.mark.parametrize("failing", [1, 2, 3])
@@ -123,14 +121,15 @@ def test_a_step_at_which_motion_has_no_bounds_is_halved_twice(model, modes, monk
         return simulated(*given)
 
     monkeypatch.setattr(stage, "_simulated", tried)
+    told = Telling()
     run = partial(limit_cycle, model, small_friction_map(0.6), modes, settings=Settings(
-        **SHORT | {"speeds": "middle", "checks": ()}))
+        **SHORT | {"speeds": "middle", "checks": ()}), context=told)
     if failing < 3:
         assert float(run().step) == seen[-1]
     else:
         with pytest.raises(ConvergenceError, match="expected bounds, found none"):
             run()
-    assert seen == pytest.approx([5e-6, 2.5e-6, 1.25e-6][:failing + 1])
+    assert seen == pytest.approx([5e-6, 2.5e-6, 1.25e-6][:failing + 1]) and len(told.lines) == min(failing, 2)
 
 
 def test_without_unstable_modes_nothing_is_simulated(model):
