@@ -34,8 +34,9 @@ class EarlyPages:
         """A page after ``stage``, if it changed the answer and others are to come that may change it again."""
         names = list(self._stages)
         behind, ahead = names[:names.index(stage.name) + 1], names[names.index(stage.name) + 1:]
-        if stage.name in ANSWERING and "report" in ahead:
-            self._try(lambda: self._follow(behind, [name for name in ahead if name != "report"]))
+        coming = [name for name in ahead if name != "report"]
+        if stage.name in ANSWERING and coming and "report" in ahead:
+            self._try(lambda: self._follow(behind, coming))
 
     def _look(self):
         changes = coarse(self._job.case.sections)

@@ -114,8 +114,6 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
                                lambda: _open(early, pace, job.plan(first, last, frozenset(force))))
     finally:
         work.close()
-    if computed:
-        pace.note_memory()
     if not computed:
         click.echo(f"nothing to compute: everything asked for is up to date in {job.folder}")
     elif (job.folder / "report.html").exists() and (last in (None, "report")):
@@ -147,9 +145,7 @@ def _job_of(chosen, folder):
 
 def _open(early, pace, states):
     """Say how long the planned ``states`` will take, and have a first look where there is one."""
-    from pipeline.physics.numerics.memory import available_memory
-
-    if told := pace.forecast(states, available_memory()):
+    if told := pace.forecast(states):
         click.echo(told)
     if early:
         early.open(states)

@@ -16,9 +16,8 @@ def clock(monkeypatch):
     return now
 
 
-def made(monkeypatch, folder, measure=1.0, size=100.0, workers=2):
+def made(monkeypatch, folder, measure=1.0, workers=2):
     monkeypatch.setattr(pace, "work", lambda sections: dict.fromkeys(("structure", "probability", "report"), measure))
-    monkeypatch.setattr(pace, "elements", lambda brake: size)
     return Pace(SimpleNamespace(case=SimpleNamespace(sections={"structure": True})), workers, folder)
 
 
@@ -41,30 +40,30 @@ def run(made, clock, seconds, variants=0):
 
 def test_nothing_is_known_at_first_then_the_times_of_the_last_run(monkeypatch, tmp_path, clock):
     first = made(monkeypatch, tmp_path)
-    assert first.forecast(STATES, None) == ("how long this takes is not known: no run of structure, probability on this"
+    assert first.forecast(STATES) == ("how long this takes is not known: no run of structure, probability on this"
                                             " machine yet")
-    assert first.forecast([state("structure", reasons=())], None) == "", "nothing is computed"
+    assert first.forecast([state("structure", reasons=())]) == "", "nothing is computed"
     run(first, clock, 60.0)
     again = made(monkeypatch, tmp_path)
-    assert again.forecast(STATES, None) == "this will take about 2 min by the times of earlier runs on this machine"
-    assert again.forecast(STATES[:1], None).startswith("this will take about 60 s by")
-    assert "not known" in made(monkeypatch, tmp_path, workers=1).forecast(STATES, None), "other processes, other times"
+    assert again.forecast(STATES) == "this will take about 2 min by the times of earlier runs on this machine"
+    assert again.forecast(STATES[:1]).startswith("this will take about 60 s by")
+    assert "not known" in made(monkeypatch, tmp_path, workers=1).forecast(STATES), "other processes, other times"
 
 
 def test_times_are_in_proportion_to_the_work_and_those_of_the_same_work_count_first(monkeypatch, tmp_path, clock):
     run(made(monkeypatch, tmp_path, measure=1.0), clock, 60.0)
-    assert "about 6 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES, None)
-    assert "not known" in made(monkeypatch, tmp_path, measure=11.0).forecast(STATES, None), "too far to tell"
+    assert "about 6 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES)
+    assert "not known" in made(monkeypatch, tmp_path, measure=11.0).forecast(STATES), "too far to tell"
     for seconds in (200.0, 240.0, 900.0):       # a run beside another one took longer: the median is told
         run(made(monkeypatch, tmp_path, measure=3.0), clock, seconds)
-    assert "about 8 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES, None)
+    assert "about 8 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES)
 
 
 def test_what_has_not_run_is_named(monkeypatch, tmp_path, clock):
     first = made(monkeypatch, tmp_path)
     clock.time += 50.0
     first.note(state("structure"), 50.0)
-    told = first.forecast(STATES, None)
+    told = first.forecast(STATES)
     assert told == ("this will take about 50 s by the times of earlier runs on this machine, and what probability will"
                     " take, no run of which is known")
 
@@ -76,24 +75,12 @@ def test_runs_that_went_on_with_finished_variants_do_not_count(monkeypatch, tmp_
     assert kept._seconds("probability") == 100.0 and kept._seconds("structure") == 65.0
 
 
-def test_memory_is_told_and_whether_it_suffices(monkeypatch, tmp_path, clock):
-    first = made(monkeypatch, tmp_path)
-    run(first, clock, 60.0)
-    usage = {pace.resource.RUSAGE_SELF: 400_000, pace.resource.RUSAGE_CHILDREN: 800_000}
-    monkeypatch.setattr(pace.resource, "getrusage", lambda who: SimpleNamespace(ru_maxrss=usage[who]))
-    first.note_memory()
-    told = made(monkeypatch, tmp_path).forecast(STATES, 3e9)
-    assert told.endswith("; it needs about 2 GB of memory")     # 2000 x 1024 kB
-    told = made(monkeypatch, tmp_path, size=200.0).forecast(STATES, 3e9)
-    assert "; it needs about 4.4 GB of memory, but 3 GB are available: use fewer workers" in told      # 2 ** 1.1
-
-
 @pytest.mark.parametrize("content", ["{", "[]", '{"structure with 2": 3}', '{"structure with 2": [[1, 2]]}',
                                      '{"structure with 2": [[0, 5, 0]]}', '{"structure with 2": [["a", 5, 0]]}'])
 def test_a_damaged_file_of_notes_is_none(monkeypatch, tmp_path, clock, content):
     (tmp_path / "pace.json").write_text(content)
     first = made(monkeypatch, tmp_path)
-    assert "not known" in first.forecast(STATES, None)
+    assert "not known" in first.forecast(STATES)
     run(first, clock, 60.0)
     assert len(json.loads((tmp_path / "pace.json").read_text())) == 2
 
