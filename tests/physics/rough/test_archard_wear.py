@@ -1,11 +1,12 @@
 """Archard's volume is exact; the slider returns."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from pipeline.physics.rough.archard_wear import archard, run_in
+from pipeline.physics.rough.archard_wear import WornPair, archard, run_in
 from pipeline.physics.rough.contact.normal_contact import solve_normal_contact
 from pipeline.physics.rough.generator import self_affine
 from pipeline.physics.rough.layered_solid import half_space_compliance
@@ -45,6 +46,16 @@ def test_the_disc_wears_where_it_touched():
     gap = -PAD - np.roll(DISC, 1, axis=1)
     touched = np.roll(disc_mark > 0, 1, axis=1)
     assert gap[touched].mean() < gap[~touched].mean() - gap.std()
+
+
+@pytest.mark.exact
+def test_a_disc_yields_where_it_touches_wherever_the_slider_is():
+    """What is flattened at a position comes off the gap there, node by node."""
+    pair, flattened = WornPair(PAD, DISC, 0 * PAD, 0 * DISC), np.zeros_like(PAD)
+    flattened[3, 5] = 1e-6
+    for body in ("pad", "disc"):
+        after = pair.after(SimpleNamespace(flattened=flattened), 2, body)
+        np.testing.assert_allclose(after.gap(2) - pair.gap(2), flattened, atol=1e-18)
 
 
 def test_wear_flattens_what_touches():
