@@ -184,7 +184,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     tasks = [(*point, lost) for point, lost in zip(points, losses, strict=True)]
     outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
     if has_full_matrices(structure, models[0][0], settings, context):
-        outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, model.contact_body,
+        outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, law[1], model.contact_body,
                            settings, context)
     outcomes = [growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))

@@ -7,8 +7,9 @@ import numpy as np
 
 from pipeline.contract import ConvergenceError
 from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions
 from pipeline.physics.stability.constrained_modes import is_hard
-from pipeline.physics.stability.full_roots import Guess, families, full_roots, sliding_as
+from pipeline.physics.stability.full_roots import Guess, families, full_roots
 
 #: roots of one operating point that differ by less than this share are the same
 _SAME = 1e-6
@@ -63,21 +64,21 @@ def lacking_terms(structure, posed, settings):
     return [reason for reason, holds in reasons.items() if holds]
 
 
-def full_modes(full_model, models, slidings, modes, describe, settings, context):
+def full_modes(full_model, models, slide, modes, describe, settings, context):
     """A FullMode for each Mode that oscillates, None for others.
 
-    ``full_model()``: the sparse SlidingModel of the finite elements, called where there is such a mode; ``models`` and
-    ``slidings``: the reduced SlidingModel about steady sliding and the Steady of each operating point;
+    ``full_model()``: the sparse SlidingModel of the finite elements, called where there is such a mode; ``models``:
+    the reduced SlidingModel about steady sliding at each operating point; ``slide(operating, full, solve)``: the
+    SlidingModel and the Steady there on the elements ``full`` themselves, by Solutions ``solve`` that all share;
     ``describe(model, sliding, roots, vectors)``: (terms, contacts, shares) of each root, as ``balances``.
     """
     solved = [None] * len(modes)
     oscillating = np.array([k for k, mode in enumerate(modes) if mode.root.imag > 0], int)
     if not len(oscillating):
         return solved
-    full = full_model()
-    about = [sliding_as(full, model) for model in models]
+    about = _slid(slide, full_model(), {modes[k].operating for k in oscillating}, context)
     groups = families(*(np.array([getattr(modes[k], name) for k in oscillating]) for name in ("root", "state")))
-    tasks = [[(about[m.operating], slidings[m.operating], m.root,
+    tasks = [[(*about[m.operating], m.root,
                np.concatenate([rows @ m.motion for rows in _rows(models[m.operating])]))
               for m in (modes[k] for k in oscillating[group])] for group in groups]
     results = context.map(partial(_family, describe, settings, context.solver), tasks, "full finite-element matrices")
@@ -86,6 +87,12 @@ def full_modes(full_model, models, slidings, modes, describe, settings, context)
             solved[k] = mode
     _refuse_same(modes, solved)
     return solved
+
+
+def _slid(slide, full, operating, context):
+    """{number: (SlidingModel, Steady)} of the ``operating`` points on the finite elements ``full``."""
+    solve = Solutions(context.solver)
+    return {number: slide(number, full, solve) for number in sorted(operating)}
 
 
 def _rows(model):

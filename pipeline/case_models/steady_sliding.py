@@ -23,6 +23,8 @@ from pipeline.physics.sliding.equilibrium import (
     steady_sliding,
 )
 from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
+from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
+from pipeline.physics.stability.full_roots import sliding_as
 from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, present, settling
 from pipeline.physics.time_stepping.elements import Turning, bears
 from pipeline.physics.time_stepping.initial_state import steady_start
@@ -142,6 +144,20 @@ class Posed:
         states = friction_about(friction, model.sliding_speed, solution.contact.force, model.contacts.area)[1]
         slopes = element_slopes(model, start, model.sliding_speed)[1:]
         return replace(solution, states=states, slopes=np.array(slopes))
+
+    def slide_on_elements(self, full, begin, input_force, plain, settings, solve):
+        """(SlidingModel ``full`` of the finite elements behind the model, about it, and its Steady) under
+        ``input_force`` (i,) N, without effects.
+
+        ``begin``: Steady of the model; ``plain``, ``settings``: as of ``slide``; ``solve``: Solutions, which states of
+        the same elements may share. Contacts without a table keep the state of the model.
+        """
+        about, law = sliding_as(full, begin.about(self.bench.model)), self.base.law
+        if not isinstance(law, Table):
+            return about, begin
+        found = self._found(sliding_on_elements(about, input_force, (law.closure, law.pressure), plain,
+                                                begin.contact.closure, solve, settings.centrifugal), settings)
+        return found.about(about), found
 
     def _as_given(self, response, input_force, state):
         if response is None:

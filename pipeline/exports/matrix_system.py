@@ -10,7 +10,6 @@ from pipeline.case_models.matrices.sliding_terms import NamedMatrix, sliding_sta
 from pipeline.contract import ConfigError
 from pipeline.exports.run_products import described, operating_point, product_of, sliding_products
 from pipeline.physics.fem.supports import free_freedoms
-from pipeline.physics.stability.full_roots import sliding_as
 from pipeline.products import Matrices, MatrixModes, Structure
 from pipeline.systems.fem_bodies import full_model
 
@@ -56,7 +55,7 @@ def reduced_system(folder, wanted=None):
 
 
 def full_system(folder, wanted=None, solver="superlu"):
-    """The same of the full finite-element matrices about the sliding state of the reduced model.
+    """The same of the full finite-element matrices about their own sliding state.
 
     Raises ConfigError as well where the full matrices lack a part of the reduced model.
     """
@@ -68,10 +67,10 @@ def full_system(folder, wanted=None, solver="superlu"):
     if lacking:
         raise ConfigError("--full", "a case whose terms all have full finite-element matrices",
                           ", ".join(lacking), "export the reduced model, or take these out of the case")
-    about = sliding_as(full_model(structure, solver), state.about)
-    return _about_state(state, terms_about(about, state.friction, state.settings),
+    state = state.on_elements(full_model(structure, solver), solver)
+    return _about_state(state, terms_about(state.about, state.friction, state.settings),
                         f"full finite-element matrices, operating point {described(modes, operating)}",
-                        _nodes(structure, about.mass.shape[0]), about, map_friction=(1.0,))
+                        _nodes(structure, state.about.mass.shape[0]), state.about, map_friction=(1.0,))
 
 
 def given_system(folder):

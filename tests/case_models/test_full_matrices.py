@@ -10,6 +10,7 @@ import scipy
 from pipeline.case_models.full_matrices import Mode, full_modes, has_full_matrices
 from pipeline.contract import Context, ConvergenceError
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
+from pipeline.physics.stability.full_roots import sliding_as
 
 SETTINGS = SimpleNamespace(residual_tolerance=1e-8, hysteretic=True, friction_slopes=True, friction_damping=False,
                            gyroscopic=True, centrifugal=True)
@@ -64,6 +65,12 @@ def masses():
                         none[:0], (), none[:0], 1.0)
 
 
+def sliding_as_in(reduced):
+    """The elements slide in the state of the reduced model."""
+    return lambda number, full, solve: (sliding_as(full, reduced), SimpleNamespace(
+        acting=lambda slopes: FrictionState(0.3)))
+
+
 @pytest.mark.exact
 def test_modes_are_those_of_the_full_model_in_the_state_of_the_reduced_one():
     """The reduced model holds the first two masses; its contacts and their drag stand for those of the full one."""
@@ -72,17 +79,17 @@ def test_modes_are_those_of_the_full_model_in_the_state_of_the_reduced_one():
     seen = replace(full.contacts, normal=np.eye(3)[:, :2], tangent=none, lateral=none, stiffness=np.full(3, CONTACT),
                    damping=np.full(3, 2.0))
     reduced = replace(full, contacts=seen)
-    sliding = SimpleNamespace(acting=lambda slopes: FrictionState(0.3))
+    slide = sliding_as_in(reduced)
     exact = [np.roots([m, 2.0, STIFFNESS + CONTACT])[0] for m in MASS]
     modes = [Mode(0, 0, complex(exact[0] * 1.001), np.array([1.0, 0.01])), Mode(0, 0, 5.0, np.array([1.0, 0.0])),
              Mode(0, 0, complex(exact[1] * 0.999), np.array([0.01, 1.0]))]
-    found = full_modes(lambda: full, [reduced], [sliding], modes, _described, SETTINGS, Context())
+    found = full_modes(lambda: full, [reduced], slide, modes, _described, SETTINGS, Context())
     assert found[1] is None
     for mode, root in ((found[0], exact[0]), (found[2], exact[1])):
         assert mode.root == pytest.approx(root, rel=1e-9) and mode.residual <= 1e-8
     assert found[0].terms == {"drag": pytest.approx(2.0)} and found[2].shares.argmax() == 1
     assert found[0].contacts.tolist() == [1.0, 1.0, 1.0]
-    assert full_modes(None, [reduced], [sliding], modes[1:2], _described, SETTINGS, Context()) == [None]
+    assert full_modes(None, [reduced], None, modes[1:2], _described, SETTINGS, Context()) == [None]
 
 
 @pytest.mark.exact
@@ -90,9 +97,9 @@ def test_two_modes_that_lead_to_one_root_are_refused():
     full = masses()
     reduced = replace(full, contacts=replace(full.contacts, stiffness=np.full(3, CONTACT)))
     mode = Mode(0, 0, complex(np.roots([MASS[0], 0.0, STIFFNESS + CONTACT])[0] * 1.001), np.array([1.0, 0.0, 0.0]))
-    sliding = SimpleNamespace(acting=lambda slopes: FrictionState(0.3))
+    slide = sliding_as_in(reduced)
     with pytest.raises(ConvergenceError, match="one near .* for two of them"):
-        full_modes(lambda: full, [reduced], [sliding], [mode, mode], _described, SETTINGS, Context())
+        full_modes(lambda: full, [reduced], slide, [mode, mode], _described, SETTINGS, Context())
 
 
 def _described(model, sliding, roots, vectors):

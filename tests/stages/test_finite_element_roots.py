@@ -1,17 +1,21 @@
 """Unstable roots of the default brake, meshed coarsely, beside those of its full finite-element matrices.
 
-The steady sliding state is that of the reduced model; bodies, joints, contacts, friction and loss factors are assembled
-anew from the product Structure, and another sparse solver factorises them.
+Bodies, joints, contacts, friction and loss factors are assembled anew from the product Structure, and another sparse
+solver factorises them. These matrices balance the contact forces of the steady sliding state, which is that of the
+elements.
 """
 
 import numpy as np
 import pytest
+import scipy.sparse.linalg
 
 import stages
 from pipeline.case_models.steady_sliding import posed, sliding_friction
 from pipeline.contract import Context, case
 from pipeline.physics.numerics.sparse_solver import available
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions
 from pipeline.recordings import registry
+from pipeline.systems.fem_bodies import full_model
 from tests.commands import ROOT
 from tests.stages.finite_elements import FiniteElements
 
@@ -24,6 +28,17 @@ COARSE = ("structure.disc.web_cells=2", "structure.disc.ring_cells=5", "structur
 #: friction that rises more steeply than that of the default case, so that more modes grow, at a fifth of the cost
 ONE_PATCH = ("surface.pairs=1", "surface.nodes=128", "surface.patch_length=1 mm", "micro_friction.realisations=3",
              "micro_friction.pad.youngs_modulus=0.235 GPa")
+
+
+def closures(elements, about, sliding, input_force):
+    """(c,) m of the elements under the forces of a state, with springs at the contacts that hold loose pads."""
+    contacts, contact, (normal, tangent, _) = about.contacts, sliding.contact, elements.contact
+    springs = np.full(len(contact.force), contact.stiffness.max())
+    held = contact.force - springs * (contact.closure + contacts.gap)
+    drawn = about.direction() * sliding.friction.coefficient * contact.force
+    force = about.input_rows.T @ input_force + normal.T @ held + tangent.T @ drawn
+    stiffness = elements.stiffness + elements.spread(normal, springs, normal)
+    return -(normal @ scipy.sparse.linalg.spsolve(stiffness.tocsc(), force)) - contacts.gap
 
 
 @pytest.mark.slow
@@ -40,14 +55,17 @@ def test_unstable_roots_are_those_of_the_full_matrices():
     model = stages.load("reduced_model")(structure, settings=chosen["reduced_model"], context=context)
     settings, elements = chosen["complex_modes"], FiniteElements(structure)
     modes = stages.load("complex_modes")(model, product, None, structure, settings=settings, context=context)
-    law = sliding_friction(product, model, settings)
+    law, full = sliding_friction(product, model, settings), full_model(structure, context.solver)
     assert len(modes.unstable_root) >= 5 and set(modes.unstable_operating) == {0, 1}
     for state in set(modes.unstable_operating):
         there = posed(model, state, SPEED, settings.damping_speed)
         response, input_force = there.response(settings.centrifugal), model.pressure[state] * model.input_area
         sliding = there.slide(response, input_force, *law, settings)
-        about = sliding.about(there.bench.model)
-        np.testing.assert_allclose(about.contacts.preload, modes.operating_force[state], rtol=1e-9)
+        np.testing.assert_allclose(sliding.contact.force, modes.operating_force[state], rtol=1e-9)
+        about, sliding = there.slide_on_elements(full, sliding, input_force, law[1], settings,
+                                                 Solutions(context.solver))
+        balanced = closures(elements, about, sliding, input_force)
+        np.testing.assert_allclose(balanced, sliding.contact.closure, atol=1e-5 * abs(balanced).max())
         matrices = elements.about(about, sliding.acting(settings.friction_slopes))
         for k in np.flatnonzero(modes.unstable_operating == state):
             root, reduced = modes.unstable_root[k], modes.unstable_reduced[k]

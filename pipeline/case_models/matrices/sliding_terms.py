@@ -4,7 +4,8 @@ The terms are those of ``SlidingModel.linearised``, one by one, with what each i
 change while contacts and their forces stay: the form in which the chain ``matrices`` reads a system.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import Posed, Steady, posed, sliding_friction
 from pipeline.contract import ConfigError, ProductError
 from pipeline.physics.sliding.model import SlidingModel, at_state, spread
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.growth_balance import Losses
 
@@ -33,13 +35,15 @@ class NamedMatrix:
 @dataclass(frozen=True)
 class SlidingState:
     """A case about steady sliding: its Posed, its Steady, the section ``complex_modes``, and the SlidingModel ``about``
-    it; ``losses``: of the product ReducedModel."""
+    it; ``losses``: of the product ReducedModel; ``input_force`` (i,) N, ``plain``: as of ``Posed.slide``."""
 
     posed: Posed
     sliding: Steady
     settings: object
     about: SlidingModel
     losses: Losses
+    input_force: np.ndarray
+    plain: Callable
 
     @property
     def friction(self):
@@ -58,6 +62,12 @@ class SlidingState:
         """Settling of effects with states of their own beside the model, None without any."""
         return self.sliding.beside(self.about, self.settings.friction_slopes)
 
+    def on_elements(self, full, solver):
+        """The same about the steady sliding of the SlidingModel ``full``, the finite elements behind the model."""
+        about, sliding = self.posed.slide_on_elements(full, self.sliding, self.input_force, self.plain, self.settings,
+                                                      Solutions(solver))
+        return replace(self, about=about, sliding=sliding)
+
     @property
     def linearised(self):
         """(M, C, K), each (n, n), without what makes loss factors hysteretic."""
@@ -72,9 +82,10 @@ def sliding_at(modes, model, friction_map, effects, operating):
     pressure, speed = modes.operating_pressure[operating], float(modes.operating_speed[operating])
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, speed, settings.damping_speed, physics_terms(effects), conditions(effects))
-    sliding = case.seeking.slide(case.response(settings.centrifugal), model.pressure[state] * model.input_area,
-                                 *sliding_friction(friction_map, model, settings), settings)
-    return SlidingState(case, sliding, settings, sliding.about(case.bench.model), Losses.of(at_state(model, state)))
+    load, law = model.pressure[state] * model.input_area, sliding_friction(friction_map, model, settings)
+    sliding = case.seeking.slide(case.response(settings.centrifugal), load, *law, settings)
+    return SlidingState(case, sliding, settings, sliding.about(case.bench.model), Losses.of(at_state(model, state)),
+                        load, law[1])
 
 
 def sliding_state(modes, model, friction_map, effects, operating):
