@@ -166,10 +166,11 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     operating points, each about its own steady sliding state, in a basis of the real modes below
     {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
     solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}), and then
-    in the full finite-element matrices where a brake has these (largest residual: {residual_tolerance}). A closing
-    speed of {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth rate
-    exceeds {neutral} times its angular frequency. Up to {followed} unstable modes were followed in the reduced model
-    from the friction of their operating point down to none, at its contact forces, by the modal assurance criterion.
+    in the full finite-element matrices, about the steady sliding of the elements themselves, where a brake has these
+    (largest residual: {residual_tolerance}). A closing speed of {damping_speed} doubles the contact pressure (contact
+    damping). A mode is unstable if its growth rate exceeds {neutral} times its angular frequency. Up to {followed}
+    unstable modes were followed in the reduced model from the friction of their operating point down to none, at its
+    contact forces, by the modal assurance criterion.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)

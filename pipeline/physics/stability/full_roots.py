@@ -1,7 +1,7 @@
 """Roots of the finite-element matrices without reduction, near those of a reduced model, and their residuals.
 
 A reduced model is a projection, so that its roots are off by what its basis leaves out of the right vectors times what
-it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, sparse and about the same sliding state, a
+it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, sparse and about a sliding state, a
 root is sought in a subspace of motions. It begins with the answer to the friction forces of the reduced mode, and grows
 by S^-1 T(s) x, x being the mode of T projected on it (nonlinear Arnoldi iteration: H. Voss, BIT Numer. Math. 44 (2004)
 387). S is the symmetric part of T(s0), whose factor, in single precision, takes a fifth of the time of one of T(s0): it
