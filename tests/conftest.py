@@ -2,16 +2,15 @@
 these processes; public recordings are found, or tests of them skip with the reason."""
 
 import fcntl
-import json
 import os
-import warnings
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
 from pipeline.cli import pace
-from pipeline.contract.received import process
 from pipeline.environment import ONE_THREAD
+from tests import readers
 from tests.cost import pytest_collection_finish, pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401
 
 os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
@@ -34,10 +33,10 @@ def pytest_collection_modifyitems(items):
 
 
 @pytest.fixture(autouse=True)
-def _readers_here(request, monkeypatch):
+def _readers_here(request):
     """Readers of files run in the process of the test; in processes of their own where it is marked ``apart``."""
-    if not request.node.get_closest_marker("apart"):
-        monkeypatch.setattr(process, "started", _read_here)
+    with nullcontext() if request.node.get_closest_marker("apart") else readers.in_this_process():
+        yield
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -46,14 +45,6 @@ def _notes_apart(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pace, "user_folder", lambda: tmp_path_factory.mktemp("notes"))
         yield
-
-
-def _read_here(reader, path, folder, limits, given):
-    """``process.started`` without the start of a process, with its limits left out."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        process.leave(reader, str(Path(path).absolute()), str(folder), limits.memory, json.loads(json.dumps(given)))
-    return 0
 
 
 @pytest.fixture(scope="session")

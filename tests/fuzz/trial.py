@@ -1,21 +1,20 @@
 """What one input of the fuzzer is, what a reader makes of it, and how that is judged."""
 
 import contextlib
-import json
 import os
-import sys
-import tempfile
 import time
 import traceback
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
 from pipeline.contract.errors import LONGEST, BrakechainError
 from pipeline.contract.received import process
+from tests import readers
 
 #: read: as it should be; refused: one sentence; contained: one sentence about what the process of a reader stumbled
 #: over or did not survive. Failures: internal error; wrong numbers, or damage not noticed; rejected, although right; no
@@ -104,29 +103,11 @@ def _judged(error, trial):
     return ("contained" if stumbled else "refused"), text
 
 
-def inside(reader, path, collect, **given):
-    """``process.answered`` in this process, for speed: the same reader, and the same way of what it leaves."""
-    with tempfile.TemporaryDirectory() as folder:
-        process.leave(reader, str(path), folder, 6e9, json.loads(json.dumps(given)))
-        return process.collected(0, Path(path), Path(folder), 0, collect)
-
-
 @contextlib.contextmanager
 def in_this_process():
     """Readers that have a process of their own are called in this one, and products are opened here at once."""
-    users = [module for module in list(sys.modules.values()) if getattr(module, "answered", None) is process.answered]
-    for module in users:
-        module.answered = inside
-    os.environ[process._READER] = "1"
-    try:
+    with readers.in_this_process(), mock.patch.dict(os.environ, {process._READER: "1"}):
         yield
-    finally:
-        del os.environ[process._READER]
-        for module in users:
-            module.answered = _ANSWERED
-
-
-_ANSWERED = process.answered
 
 
 def difference(value, expected, tolerance=1e-9, path=""):
