@@ -42,7 +42,7 @@ GIVEN = {
                           " one on both sides",
                           "damping_ratio: 0",
                           "loss_factor: {value: 0.002, origin: assumed, source: nodular cast iron}"),
-    "structure.bracket": ("kind: body  # ground: pads are held on the ground",
+    "structure.bracket": ("kind: body  # ground: pads are held on the ground", "corner_cells: 3  # small elements at its corners",
                           "loss_factor: {value: 0.002, origin: assumed, source: nodular cast iron}"),
     "structure.piston": ("kind: body  # seal: neither piston nor brake fluid; 'count: 2': twin pistons",),
     "structure.joints": ("loss_time: 0 us",
@@ -82,7 +82,7 @@ structure:
   disc: {{web_cells: 2, ring_cells: 5, angular_cells: 36}}
   pad: {{patches_angular: 4, patches_radial: 2, cells_per_patch: 1, lining_layers: 1}}
   caliper: {{radial_cells: 2, angular_cells: 4, housing_cells: 2, bridge_cells: 2}}
-  bracket: {{element_size: 20 mm}}
+  bracket: {{element_size: 20 mm, corner_cells: 0}}
   frequency_max: 9 kHz
   free_frequency_max: 2 kHz
 reduced_model: {{fixed_below: 9 kHz, residual_below: 100 kHz, load_patterns: [5, 3]}}

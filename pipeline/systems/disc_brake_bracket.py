@@ -8,11 +8,13 @@
 The columns begin at the plane ends of the pads, which they guide; contact there is a joint, not part of the mesh.
 """
 
+from functools import partial
+
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import isotropic
-from pipeline.physics.fem.mesh import divided, revolve
+from pipeline.physics.fem.mesh import divided, graded, revolve
 from pipeline.systems.disc_brake_rows import pad_height
 from pipeline.systems.solids import Solid
 
@@ -33,10 +35,10 @@ def inner_height(parameters):
 
 def _mesh(p, pads, beside):
     """Mesh of revolution; ``pads`` half the angle of the pads, ``beside`` the height at which the disc is passed."""
-    size = p.element_size
-    radius = divided((p.inner_radius, p.base_outer_radius, p.rim_inner_radius, p.rim_outer_radius), size)
-    angle = divided((-p.angle / 2, -pads, pads, p.angle / 2), 2 * size / (p.base_outer_radius + p.rim_outer_radius))
-    height = divided((-p.column_height, -p.base_height, -beside, beside, p.arm_height), size)
+    size, lines = p.element_size, partial(graded, cells=p.corner_cells) if p.corner_cells else divided
+    radius = lines((p.inner_radius, p.base_outer_radius, p.rim_inner_radius, p.rim_outer_radius), size)
+    angle = lines((-p.angle / 2, -pads, pads, p.angle / 2), 2 * size / (p.base_outer_radius + p.rim_outer_radius))
+    height = lines((-p.column_height, -p.base_height, -beside, beside, p.arm_height), size)
     r, a, z = np.meshgrid(*(((line[1:] + line[:-1]) / 2) for line in (radius, angle, height)), indexing="ij")
     inside = abs(z) < beside
     column = (abs(a) > pads) & np.where(inside, r > p.rim_inner_radius, (z < 0) | (r > p.base_outer_radius))

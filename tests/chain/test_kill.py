@@ -30,6 +30,22 @@ sys.argv = ["brakechain", *sys.argv[2:]]
 main()
 """
 
+#: a run that dies some seconds after its first stage has begun to compute
+DIE_WHILE_COMPUTING = """
+import os, sys, threading
+from pipeline.__main__ import main
+from pipeline.contract.stage import Stage
+whole, seconds = Stage.__call__, float(sys.argv[1])
+def dying(*given, **named):
+    timer = threading.Timer(seconds, os.kill, (os.getpid(), 9))
+    timer.daemon = True
+    timer.start()
+    return whole(*given, **named)
+Stage.__call__ = dying
+sys.argv = ["brakechain", *sys.argv[2:]]
+main()
+"""
+
 
 def killed_after(seconds, folder, case=QUICK):
     command = [sys.executable, "-m", "pipeline", "run", str(case), "--run", str(folder), "--workers", "2"]
@@ -39,8 +55,16 @@ def killed_after(seconds, folder, case=QUICK):
     return run.wait()
 
 
+def killed_while_computing(seconds, folder, case):
+    return _dead(DIE_WHILE_COMPUTING, seconds, folder, case)
+
+
 def killed_while_writing(product, folder, case=QUICK):
-    command = [sys.executable, "-c", DIE_IN_MID_WRITE, f"{product}.h5", "run", str(case), "--run", str(folder)]
+    return _dead(DIE_IN_MID_WRITE, f"{product}.h5", folder, case)
+
+
+def _dead(script, when, folder, case):
+    command = [sys.executable, "-c", script, str(when), "run", str(case), "--run", str(folder)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, timeout=900,
                           env={**os.environ, "PYTHONPATH": str(ROOT)})
     return done.returncode

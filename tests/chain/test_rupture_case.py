@@ -10,7 +10,7 @@ from pipeline.products import Comparison, Rupture
 from stages import CHAINS
 from stages import load as stage_of
 from tests.chain.conftest import contents
-from tests.chain.test_kill import killed_after, killed_while_writing
+from tests.chain.test_kill import killed_while_computing, killed_while_writing
 from tests.commands import ROOT, brakechain
 
 QUICK = ROOT / "configs" / "bimaterial_rupture_quick.yaml"
@@ -41,7 +41,7 @@ def test_the_quick_case_runs_and_computes_nothing_twice(whole):
 
 def test_a_killed_run_goes_on_to_the_content_of_an_undisturbed_one(whole, tmp_path):
     """Killed while computing, then in the middle of writing every product."""
-    assert killed_after(1.5, tmp_path / "killed", QUICK) == -signal.SIGKILL
+    assert killed_while_computing(0.2, tmp_path / "killed", QUICK) == -signal.SIGKILL
     for product in CHAINS["bimaterial_rupture"]:
         assert killed_while_writing(product, tmp_path / "killed", QUICK) == -signal.SIGKILL
         assert not (tmp_path / "killed" / f"{product}.h5").exists()

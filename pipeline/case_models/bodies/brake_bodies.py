@@ -169,7 +169,9 @@ class Bracket(FromMesh):
     density: Quantity("kg/m^3", gt=0) = option("7100 kg/m^3", "density")
     loss_factor: float = option(0.0, "loss factor of the material", ge=0)
     damping_ratio: float = option(0.0, "damping ratio of the bracket modes, beside the loss factor", ge=0)
-    element_size: Quantity("m", gt=0) = option("10 mm", "largest edge of an element")
+    element_size: Quantity("m", gt=0) = option("10 mm", "largest edge of an element, about")
+    corner_cells: int = option(0, "elements, at least, on each side of a re-entrant corner, whose size shrinks towards it;"
+                                  " 0: all are equal", ge=0)
 
 
 class Fluid(Section):

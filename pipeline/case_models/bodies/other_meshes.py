@@ -6,10 +6,11 @@ from pipeline.physics.modal.mode_pairing import assurance
 
 #: settings of each section that count elements, and those that state their size
 COUNTS = {"disc": ("web_cells", "ring_cells", "angular_cells"), "pad": ("cells_per_patch", "lining_layers"),
-          "caliper": ("radial_cells", "angular_cells", "housing_cells", "bridge_cells"), "piston": ("angular_cells",)}
+          "caliper": ("radial_cells", "angular_cells", "housing_cells", "bridge_cells"), "bracket": ("corner_cells",),
+          "piston": ("angular_cells",)}
 SIZES = {"bracket": ("element_size",), "piston": ("element_size",)}
 #: fewest elements
-LEAST = {"web_cells": 2, "angular_cells": 8}
+LEAST = {"web_cells": 2, "angular_cells": 8, "corner_cells": 0}
 #: groups of modes within this share of their frequency and with this likeness are the same on both meshes
 _NEAR, _ALIKE = 0.1, 0.5
 

@@ -56,6 +56,8 @@ def _meshes(brake):
     for name in ("bracket", "piston"):
         if getattr(brake, name).kind == "body":
             changes[f"structure.{name}.element_size"] = f"{2 * getattr(brake, name).element_size!r} m"
+    if brake.bracket.kind == "body":
+        changes["structure.bracket.corner_cells"] = 0
     if brake.piston.kind == "body":
         changes["structure.piston.angular_cells"] = max(8, 4 * math.ceil(brake.piston.angular_cells / 8))
     return changes

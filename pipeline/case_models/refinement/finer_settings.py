@@ -8,7 +8,7 @@ CONTACT, PAD_MESH, DISC_MESH, CALIPER_MESH, BRACKET_MESH, PISTON_MESH, BASES = R
 PARTS = {PAD_MESH: "pad", DISC_MESH: "disc", CALIPER_MESH: "caliper", BRACKET_MESH: "bracket", PISTON_MESH: "piston"}
 #: settings of a part that count elements
 _COUNTS = {"pad": ("cells_per_patch", "lining_layers"), "disc": ("web_cells", "ring_cells", "angular_cells"),
-           "caliper": ("radial_cells", "angular_cells", "housing_cells", "bridge_cells"), "bracket": (),
+           "caliper": ("radial_cells", "angular_cells", "housing_cells", "bridge_cells"), "bracket": ("corner_cells",),
            "piston": ("angular_cells",)}
 #: elements around a piston come in multiples of this
 _AROUND_PISTON = 4

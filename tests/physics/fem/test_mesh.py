@@ -5,7 +5,7 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import face_points
-from pipeline.physics.fem.mesh import block, boundary_faces, corners, divided, face_normals, revolve
+from pipeline.physics.fem.mesh import block, boundary_faces, corners, divided, face_normals, graded, revolve
 from tests.physics.fem.mixed_meshes import cut
 
 pytestmark = pytest.mark.exact
@@ -69,3 +69,9 @@ def test_divided_lines_keep_their_edges_and_are_no_wider_than_asked():
     assert {0.0, 1.0, 1.2, 4.0} <= set(line) and np.diff(line).max() <= 0.5 + 1e-12
     assert line == pytest.approx([0, 0.5, 1, 1.2, *np.linspace(1.2, 4, 7)[1:]])
     assert list(divided((-1.0, 1.0), 5.0)) == [-1.0, 1.0]
+
+
+def test_graded_lines_shrink_as_squares_towards_inner_edges_alone():
+    line = graded((0.0, 1.0, 1.2, 4.0), 0.5, 2)
+    assert line == pytest.approx([0, 0.75, 1, 1.025, 1.1, 1.175, 1.2, *(1.2 + 2.8 * (np.arange(1, 7) / 6) ** 2)])
+    assert list(graded((-1.0, 1.0), 5.0, 3)) == [-1.0, 1.0]
