@@ -49,7 +49,7 @@ def _check(sections):
                           ", ".join(settings.refinements))
 
 
-@stage(check=_check, built_from=("structure",))
+@stage(check=_check, built_from=("structure",), alone=True)
 def convergence(modes: ComplexModes, model: ReducedModel, friction_map: FrictionMap, effects: Effects | None,
                 sections: Sections, settings: Settings, context: Context) -> Convergence:
     """Compare unstable modes with those of a finer model of finite elements.

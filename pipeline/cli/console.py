@@ -105,6 +105,9 @@ class RunContext(context.Context):
         with self.bars.work(label, len(items)) as progress:
             return self.executor.map(function, items, progress.advance)
 
+    def begin(self, function, item):
+        return self.executor.begin(function, item)
+
     @property
     def sees_files(self):
         return self.executor.sees_files

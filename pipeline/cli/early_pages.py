@@ -24,19 +24,22 @@ class EarlyPages:
         """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
         self._job, self._context, self._say = job, context, say
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
+        self._done = set()
 
     def open(self, states):
         """The first look, unless the planned ``states`` compute no complex modes or the case has none."""
         if any(state.reasons for state in states if state.stage.name == "complex_modes"):
             self._try(self._look)
 
+    def note(self, stage):
+        """The product of ``stage`` is there."""
+        self._done.add(stage.name)
+
     def follow(self, stage):
         """A page after ``stage``, if it changed the answer and others are to come that may change it again."""
-        names = list(self._stages)
-        behind, ahead = names[:names.index(stage.name) + 1], names[names.index(stage.name) + 1:]
-        coming = [name for name in ahead if name != "report"]
-        if stage.name in ANSWERING and coming and "report" in ahead:
-            self._try(lambda: self._follow(behind, coming))
+        coming = [name for name in self._stages if name not in self._done and name != "report"]
+        if stage.name in ANSWERING and coming and "report" in set(self._stages) - self._done:
+            self._try(lambda: self._follow(self._done, coming))
 
     def _look(self):
         changes = coarse(self._job.case.sections)
@@ -52,7 +55,7 @@ class EarlyPages:
     def _follow(self, behind, ahead):
         from pipeline.views.pages.early import later_page
 
-        outputs = {name: self._stages[name].output for name in behind}
+        outputs = {name: stage.output for name, stage in self._stages.items() if name in behind}
         products = Products({name: lambda output=output: store.read(output, self._job.path(output))
                              for name, output in outputs.items()})
         self._show(*later_page(products, self._card(), ahead))

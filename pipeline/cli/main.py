@@ -154,6 +154,8 @@ def _open(early, pace, states):
 
 def _report(early, pace, state, seconds):
     pace.note(state, seconds)
+    if early and not state.variant:
+        early.note(state.stage)
     if seconds is None:
         return
     name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name

@@ -42,7 +42,7 @@ GIVEN = {
                           " one on both sides",
                           "damping_ratio: 0",
                           "loss_factor: {value: 0.002, origin: assumed, source: nodular cast iron}"),
-    "structure.bracket": ("kind: body  # ground: pads are held on the ground", "corner_cells: 3  # small elements at its corners",
+    "structure.bracket": ("kind: body  # ground: pads are held on the ground", "corner_cells: 3  # small ones",
                           "loss_factor: {value: 0.002, origin: assumed, source: nodular cast iron}"),
     "structure.piston": ("kind: body  # seal: neither piston nor brake fluid; 'count: 2': twin pistons",),
     "structure.joints": ("loss_time: 0 us",

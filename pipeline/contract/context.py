@@ -44,6 +44,9 @@ class Context:
                 progress.advance()
         return results
 
+    def begin(self, function, item):
+        """Begin ``function(item)`` in another process, if one can be spared: a Future of it, else None."""
+
     @property
     def sees_files(self):
         """Whether tasks of ``map`` run on this machine, so that they read and write the files that are seen here."""

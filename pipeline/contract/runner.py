@@ -5,6 +5,7 @@ import json
 import os
 import platform
 import time
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -14,6 +15,7 @@ from pipeline.contract import fingerprint, further, store
 from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
+from pipeline.contract.executors.long_tasks import LongTasks
 from pipeline.contract.integrity import checksum, examined, seen
 from pipeline.contract.integrity.lock import closed, locked
 from pipeline.contract.integrity.origin import git_commit, kernels, packages
@@ -161,9 +163,7 @@ class ChainRun:
         self._examine()
         stale, states = set(), []
         for stage in self._span(first, last):
-            state = self.state(stage, stale)
-            if stage.name in force:
-                state = replace(state, reasons=("forced", *state.reasons))
+            state = self._forced(self.state(stage, stale), force)
             stale.update({stage.output.name} if state.reasons else ())
             states.append(state)
         return states
@@ -200,7 +200,7 @@ class ChainRun:
             new = self._examine()
             try:
                 opening()
-                return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))
+                return self._bring_all(self._span(first, last), context, force, report)
             finally:
                 self._note()
                 if new:
@@ -245,15 +245,32 @@ class ChainRun:
                                             if not seen.differs(self.folder / name, digest)}
         seen.note(self.folder, right)
 
+    def _bring_all(self, stages, context, force, report):
+        """Bring the products of ``stages`` up to date, long tasks beside what does not need them; number computed."""
+        tasks, computed = LongTasks(self, context, report), 0
+        try:
+            for stage in stages:
+                computed += tasks.gather(stage)
+                state = self._forced(self.state(stage), force)
+                if not (stage.alone and state.reasons and tasks.begin(state)):
+                    computed += self._bring(stage, context, force, report)
+        except BrakechainError:     # what is under way is kept, as if it had come first
+            with suppress(BrakechainError):
+                tasks.gather()
+            raise
+        return computed + tasks.gather()
+
     def _bring(self, stage, context, force, report):
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
         varied = [report(*done) for done in self._bring_variants(stage, context)]       # each as it is computed
-        state = self.state(stage)
-        if stage.name in force:
-            state = replace(state, reasons=("forced", *state.reasons))
+        state = self._forced(self.state(stage), force)
         seconds = self._compute(stage, context) if state.reasons else None
         report(replace(state, variant=self.variant), seconds)
         return len(varied) + bool(state.reasons)
+
+    @staticmethod
+    def _forced(state, force):
+        return replace(state, reasons=("forced", *state.reasons)) if state.stage.name in force else state
 
     def _bring_variants(self, stage, context):
         """(state, seconds) of all that was computed to bring products of variants up to date that ``stage`` reads.
@@ -281,17 +298,27 @@ class ChainRun:
         with context.stage(stage):
             return [done for variant in context.map(_computed, old, "variants of the case") for done in variant]
 
-    def _compute(self, stage, context):
+    def arguments(self, stage, context):
+        """({argument: product, settings or sections}, Fingerprint) of ``stage`` that is computed now."""
         if not os.access(self.folder, os.W_OK | os.X_OK):      # at once, not after minutes of computing
             raise closed(self.folder, os.strerror(errno.EACCES))
         inputs, current = self._inputs(stage, not context.sees_files), self.fingerprint(stage)
         for _, product, path in self._ingredients(stage):   # also those that a stage which reads all might never read
             if current is None and store.identity(path) is None:
                 store.read(product, path)       # says what is wrong with it
+        return inputs | {"settings": self.case.sections[stage.name]}, current
+
+    def _compute(self, stage, context):
+        arguments, current = self.arguments(stage, context)
         wall, cpu = time.perf_counter(), cpu_seconds() + context.spent_elsewhere()
         with context.stage(stage):
-            output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
+            output = stage(**arguments, context=context)
         seconds = time.perf_counter() - wall
+        self.publish(stage, output, current, seconds, cpu_seconds() + context.spent_elsewhere() - cpu)
+        return seconds
+
+    def publish(self, stage, output, current, seconds, cpu):
+        """Write the product of ``stage``, which took ``seconds`` by the clock and ``cpu``, and its companions."""
         if fingerprint.code_of(stage.run.__module__) != self.code[stage.name]:
             raise ProductError(f"stage {stage.name}", "the same code from start to end", "code that changed meanwhile",
                                "run again")
@@ -305,10 +332,9 @@ class ChainRun:
             "companions": json.dumps({name: checksum.digest_of(companions[name]) for name in sorted(companions)}),
             "packages": json.dumps(packages()),
             "kernels": json.dumps(kernels()), "python": platform.python_version(), "machine": platform.machine(),
-            "wall_seconds": seconds, "cpu_seconds": cpu_seconds() + context.spent_elsewhere() - cpu})
+            "wall_seconds": seconds, "cpu_seconds": cpu})
         for name, content in companions.items():
             store.write_companion(self.folder / name, content)
-        return seconds
 
     def _inputs(self, stage, whole):
         """The arguments of ``stage`` that are products; read at once, or at their first use if it reads all.

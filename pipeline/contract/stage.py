@@ -69,6 +69,7 @@ class Stage:
     further: Callable | None    # asks for variants by what came of others, see pipeline.contract.further
     built_from: tuple   # names of the stages whose settings the argument 'sections' holds
     only_checked: Callable      # as ``variants``, of some that are refused like these and never computed
+    alone: bool         # True where its work is one long task: it then runs beside the stages that do not need it
 
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` and optional inputs may be left out.
@@ -102,14 +103,15 @@ def _imported(module, name):
 def stage(run=None, **options):
     """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage.
 
-    Options: ``companions``, ``reads_case``, ``check``, ``variants``, ``check_variants``, ``further``, ``built_from``
-    and ``only_checked``, see Stage.
+    Options: ``companions``, ``reads_case``, ``check``, ``variants``, ``check_variants``, ``further``, ``built_from``,
+    ``only_checked`` and ``alone``, see Stage.
     """
     return partial(_stage, **options) if run is None else _stage(run, **options)
 
 
 def _stage(run, *, companions=None, reads_case=False, check=lambda sections: None, variants=None,
-           check_variants=lambda sections, varied: None, further=None, built_from=(), only_checked=lambda sections: {}):
+           check_variants=lambda sections, varied: None, further=None, built_from=(), only_checked=lambda sections: {},
+           alone=False):
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
@@ -132,7 +134,7 @@ def _stage(run, *, companions=None, reads_case=False, check=lambda sections: Non
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
     return Stage(run.__name__, run, inputs, optional, reads_all, output, settings, summary.strip().splitlines()[0],
                  " ".join(method.split()), companions, reads_case, check, varied,
-                 variants or (lambda sections: {}), check_variants, further, tuple(built_from), only_checked)
+                 variants or (lambda sections: {}), check_variants, further, tuple(built_from), only_checked, alone)
 
 
 def _options(hint):

@@ -170,8 +170,8 @@ class Bracket(FromMesh):
     loss_factor: float = option(0.0, "loss factor of the material", ge=0)
     damping_ratio: float = option(0.0, "damping ratio of the bracket modes, beside the loss factor", ge=0)
     element_size: Quantity("m", gt=0) = option("10 mm", "largest edge of an element, about")
-    corner_cells: int = option(0, "elements, at least, on each side of a re-entrant corner, whose size shrinks towards it;"
-                                  " 0: all are equal", ge=0)
+    corner_cells: int = option(0, "elements, at least, on each side of a re-entrant corner, whose size shrinks towards"
+                                  " it; 0: all are equal", ge=0)
 
 
 class Fluid(Section):

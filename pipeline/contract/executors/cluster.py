@@ -98,6 +98,9 @@ class DaskCluster:
             self._client.cancel(futures)
             raise
 
+    def begin(self, function, item):
+        """Long tasks run here."""
+
     def _finished(self, futures):
         """The futures as they finish. Tasks of a lost worker go to the others; BrakechainError where none is left."""
         from distributed import wait

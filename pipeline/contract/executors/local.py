@@ -60,8 +60,17 @@ class InProcess:
             done()
         return results
 
+    def begin(self, function, item):
+        """There is no other process."""
+
     def close(self):
         """Nothing to release."""
+
+
+def killed():
+    """The error of a process that was killed."""
+    return BrakechainError("local processes", "workers that run to the end", "one that was killed",
+                           "usually memory ran out: try --workers 1")
 
 
 def _begin(parent):
@@ -78,20 +87,26 @@ class LocalProcesses:
     def __init__(self, workers):
         self.workers, self._pool, self.spent_elsewhere = workers, None, 0.0
 
-    def map(self, function, items, done):
-        """Results in the order of ``items``; ``done()`` is called after each."""
+    def _submit(self, function, item):
         if self._pool is None:
             os.environ.update(ONE_THREAD | SAFE)
             spawn = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(self.workers, spawn, _begin, (os.getpid(),))
-        futures = [self._pool.submit(run_task, function, item) for item in items]
+        return self._pool.submit(run_task, function, item)
+
+    def begin(self, function, item):
+        """A Future of (``function(item)``, its CPU seconds), which takes one of several processes; else None."""
+        return self._submit(function, item) if self.workers > 1 else None
+
+    def map(self, function, items, done):
+        """Results in the order of ``items``; ``done()`` is called after each."""
+        futures = [self._submit(function, item) for item in items]
         try:
             for future in as_completed(futures):
                 self.spent_elsewhere += future.result()[1]
                 done()
         except BrokenProcessPool:
-            raise BrakechainError("local processes", "workers that run to the end", "one that was killed",
-                                  "usually memory ran out: try --workers 1") from None
+            raise killed() from None
         except BaseException as error:
             for future in futures:
                 future.cancel()

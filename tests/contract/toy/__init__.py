@@ -3,7 +3,7 @@
 from importlib import import_module
 
 CHAINS = {"toy": ("source", "doubled"), "varied": ("source", "doubled", "compared"),
-          "searched": ("source", "doubled", "sought")}
+          "beside": ("source", "doubled", "mean"), "searched": ("source", "doubled", "sought")}
 
 
 def load(name):

@@ -20,11 +20,12 @@ def _companions(product, case):
     return {"doubled.csv": "\n".join(",".join(map(str, row)) for row in product.signal)}
 
 
-@stage(companions=_companions)
+@stage(companions=_companions, alone=True)
 def doubled(given: Source, settings: Settings, context: Context) -> Doubled:
     """Multiply the signals.
 
     Method:
     Signals were multiplied by {factor}.
     """
+    context.log(f"{len(given.signal)} channels")
     return Doubled(signal=context.map(partial(_times, settings.factor), given.signal, "channels"))

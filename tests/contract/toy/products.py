@@ -31,6 +31,13 @@ class Doubled:
 
 
 @product(version=1)
+class Mean:
+    """Numbers worked on in another way."""
+
+    level: Array = quantity("Pa", "channel", "mean of the signals")
+
+
+@product(version=1)
 class Compared:
     """How variants of a case differ from it."""
 
