@@ -31,15 +31,12 @@ class EarlyPages:
         if any(state.reasons for state in states if state.stage.name == "complex_modes"):
             self._try(self._look)
 
-    def note(self, stage):
-        """The product of ``stage`` is there."""
+    def follow(self, stage, computed=True):
+        """A page after ``stage``, if it was ``computed`` and changed the answer, and others may change it again."""
         self._done.add(stage.name)
-
-    def follow(self, stage):
-        """A page after ``stage``, if it changed the answer and others are to come that may change it again."""
-        coming = [name for name in self._stages if name not in self._done and name != "report"]
-        if stage.name in ANSWERING and coming and "report" in set(self._stages) - self._done:
-            self._try(lambda: self._follow(self._done, coming))
+        coming = [name for name in self._stages if name not in self._done]
+        if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
+            self._try(lambda: self._follow(self._done, coming[:-1]))
 
     def _look(self):
         changes = coarse(self._job.case.sections)

@@ -154,14 +154,11 @@ def _open(early, pace, states):
 
 def _report(early, pace, state, seconds):
     pace.note(state, seconds)
+    if seconds is not None:
+        name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
+        click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
     if early and not state.variant:
-        early.note(state.stage)
-    if seconds is None:
-        return
-    name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
-    click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
-    if early and not state.variant:
-        early.follow(state.stage)
+        early.follow(state.stage, seconds is not None)
 
 
 def _because(reasons, most=3, longest=100):

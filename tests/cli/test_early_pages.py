@@ -77,8 +77,23 @@ def test_a_look_that_fails_is_one_line_and_no_page(products, monkeypatch):
     early.open(job.planned("complex_modes"))
     assert len(said) == 1 and "no page before the end of the run (ConvergenceError: sliding state" in said[0]
     assert not job.pages
+    early.follow(job.stages[0], computed=False)
     early.follow(job.stages[1])
     assert len(job.pages) == 1
+
+
+def test_a_stage_that_is_done_after_later_ones_changes_their_page(products, monkeypatch):
+    monkeypatch.setattr(early_pages, "ANSWERING", ("complex_modes", "convergence"))
+    job = Job()
+    early, said = opened(job)
+    for k in (0, 1, 3):
+        early.follow(job.stages[k], computed=bool(k))
+    assert len(said) == 1 and said[0].endswith("Being computed: convergence, comparison.")
+    job.stages.insert(4, SimpleNamespace(name="squeal", output="squeal"))
+    early, said = opened(job)
+    for k in (0, 1, 3, 2):
+        early.follow(job.stages[k], computed=bool(k))
+    assert len(said) == 2 and said[1].endswith("Being computed: squeal.")
 
 
 def test_the_names_are_those_of_stages():

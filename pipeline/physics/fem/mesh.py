@@ -69,7 +69,7 @@ def divided(edges, size):
 
 
 def graded(edges, size, cells):
-    """Lattice lines as of ``divided``, whose cells shrink towards every inner edge, with ``cells`` or more on each side.
+    """Lattice lines as of ``divided``, whose cells shrink towards every inner edge, ``cells`` or more a side.
 
     Their distances from the edge are as squares, which suits the stresses at a re-entrant corner: those of elements of
     second order then converge about as fast as smooth ones (I. Babuska, R. B. Kellogg, J. Pitkaranta, Numer. Math. 33

@@ -1,6 +1,6 @@
 """A stage of the toy chain beside ``doubled``: both read the same."""
 
-from pipeline.contract import ConvergenceError, Context, Section, option, stage
+from pipeline.contract import Context, ConvergenceError, Section, option, stage
 from tests.contract.toy.products import Mean, Source
 
 
