@@ -12,6 +12,12 @@ import pytest
 
 #: tests printed
 _SLOWEST = 20
+#: CPU seconds that the tests of a folder may take, of each 900 that all of them do: processors differ
+_BUDGETS = {"stages": 170, "chain": 150, "physics": 150, "views": 110, "diagnosis": 90, "effects": 95, "inference": 85,
+            "contract": 45, "blind_trial": 45, "case_models": 35, "recordings": 35}
+_OTHER, _WHOLE = 30, 900
+#: tests that are all of them, or nearly: shares of fewer say nothing
+_ALL = 5000
 #: a file to which (CPU seconds, test) of every test is written, for a closer look
 _TABLE = "BRAKECHAIN_TEST_COSTS"
 
@@ -53,6 +59,18 @@ def pytest_terminal_summary(terminalreporter):
                              f" {_SLOWEST} slowest of {len(order)} tests")
     for test in order[:_SLOWEST]:
         terminalreporter.line(f"{costs[test]:8.1f}  {test}")
+    for line in over_budget(costs) if len(costs) > _ALL else ():
+        terminalreporter.line(line)
+
+
+def over_budget(costs):
+    """A line for each folder of ``costs`` {test: CPU seconds} that takes more than its share of all."""
+    folders, whole = defaultdict(float), sum(costs.values())
+    for test, seconds in costs.items():
+        folders[test.partition("::")[0].split("/")[1]] += seconds
+    allowed = {folder: _BUDGETS.get(folder, _OTHER) * max(whole, _WHOLE) / _WHOLE for folder in folders}
+    return [f"over its budget: tests/{folder}, {folders[folder]:.0f} CPU seconds, {allowed[folder]:.0f} allowed"
+            for folder in sorted(folders) if folders[folder] > allowed[folder]]
 
 
 def of(reports):
