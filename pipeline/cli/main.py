@@ -12,6 +12,7 @@ import stages
 from pipeline import __version__
 from pipeline.cli.export import export
 from pipeline.cli.facts import facts
+from pipeline.cli.first_use import compiled
 from pipeline.cli.new_case import new
 from pipeline.cli.options import options
 from pipeline.cli.run_export import export as run_export
@@ -309,6 +310,7 @@ def data_format():
 data.add_command(export)
 cli.add_command(run_export)
 cli.add_command(facts)
+cli.add_command(compiled)
 cli.add_command(new)
 cli.add_command(trial)
 
