@@ -1,9 +1,9 @@
 """Stage probability: how likely unstable modes are over the declared scatter of a brake.
 
-Draws are made before the fan-out and solved in rounds: the first of the least number, each other of as many as the share
-that squeals asks for so far, so that the number of workers changes no bit. Each is solved on bases that all draws of one
-pressure share; a few are solved in the whole reduced model as well, which states the error, and for all roots on the
-common bases. All are solved at every operating point, of which each has a statement of its own.
+Draws are made before the fan-out and solved in rounds: the first of the least number, each other of as many as the
+share that squeals asks for so far, so that the number of workers changes no bit. Each is solved on bases that all draws
+of one pressure share; a few are solved in the whole reduced model as well, which states the error, and for all roots on
+the common bases. All are solved at every operating point, of which each has a statement of its own.
 """
 
 from dataclasses import replace
@@ -52,8 +52,8 @@ class Settings(Section):
 
     draws: int = option(500, "most draws; 0 = none, and no probability", ge=0)
     interval: float = option(
-        0.05, "no more draws are made once half the width of the 95 % interval of the share that squeals at any operating"
-        " point is no more than this; 0 = all are made", ge=0, lt=1)
+        0.05, "no more draws are made once half the width of the 95 % interval of the share that squeals at any"
+        " operating point is no more than this; 0 = all are made", ge=0, lt=1)
     least_draws: int = option(100, "draws that are made in any case, for what the causes say", ge=0)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
@@ -85,8 +85,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
     point, each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the
     whole reduced model as well. From {least_draws} draws on, none were added once half the width of the interval of
-    'overall' was no more than {interval}. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only;
-    sensitivities are first-order Sobol indices of the largest growth rate.
+    'overall' was no more than {interval}. Probabilities carry 95 % Wilson intervals, which speak of the number of draws
+    only; sensitivities are first-order Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})

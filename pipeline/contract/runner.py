@@ -15,6 +15,7 @@ from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.integrity import checksum, examined, seen
+from pipeline.contract.integrity.kept import Kept
 from pipeline.contract.integrity.lock import closed, locked
 from pipeline.contract.integrity.origin import git_commit, kernels, packages
 from pipeline.contract.integrity.verify import recorded
@@ -288,6 +289,7 @@ class ChainRun:
         for _, product, path in self._ingredients(stage):   # also those that a stage which reads all might never read
             if current is None and store.identity(path) is None:
                 store.read(product, path)       # says what is wrong with it
+        context = replace(context, kept=self._kept(stage, current) if context.sees_files else None)
         wall, cpu = time.perf_counter(), cpu_seconds() + context.spent_elsewhere()
         with context.stage(stage):
             output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
@@ -308,7 +310,14 @@ class ChainRun:
             "wall_seconds": seconds, "cpu_seconds": cpu_seconds() + context.spent_elsewhere() - cpu})
         for name, content in companions.items():
             store.write_companion(self.folder / name, content)
+        if context.kept:
+            context.kept.forget()
         return seconds
+
+    def _kept(self, stage, current):
+        """Kept of what ``stage`` has computed in runs that were killed."""
+        depends = json.dumps([asdict(current), packages()], sort_keys=True)
+        return Kept(self.folder / f".{stage.name}.kept", depends.encode())
 
     def _inputs(self, stage, whole):
         """The arguments of ``stage`` that are products; read at once, or at their first use if it reads all.

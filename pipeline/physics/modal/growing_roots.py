@@ -32,7 +32,7 @@ _NEARLY, _SLOWLY = 4e-4, 2.0
 _LOW, _BANDS = 1 / 8, 4
 #: modes this far beyond a band, as a share of the frequency of its end, are kept; the same of the lowest band
 _ABOUT, _ABOUT_LOW = 0.2, 0.6
-#: roots this far beyond a band, as a share of their frequency, are taken for its own, lest two bands leave one to each other
+#: roots this far beyond a band, as a share of their frequency, are its own too: none is left to the other of two
 _SHARED = 2e-3
 #: so few coordinates are not split into bands
 _FEW = 60
