@@ -14,6 +14,7 @@ import numpy as np
 from pipeline.case_models import effect_block
 from pipeline.case_models.operating_points import Speeds, selected_speeds
 from pipeline.case_models.scatter import (
+    ADDITIONS,
     DEFAULT,
     Source,
     check_sources,
@@ -61,7 +62,8 @@ class Settings(Section):
         "all", "operating points that are sampled: those of all speeds, or of the middle one alone")
     least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts")
     training: int = option(5, "further draws that the common bases are made to serve", ge=1)
-    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point", ge=0)
+    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point: those"
+                          " farthest from the nominal brake, in standard deviations", ge=0)
     smallest_correction: float = option(
         1e-2, "corrections of the common bases below this share of the modal amplitude are left out", gt=0)
 
@@ -83,8 +85,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Method:
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
-    point, each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the
-    whole reduced model as well. From {least_draws} draws on, none were added once half the width of the interval of
+    point, each about its own steady sliding state, on bases common to all draws; the {checked} farthest from the
+    nominal brake were solved in the whole reduced model as well. From {least_draws} draws on, none were added once half the width of the interval of
     'overall' was no more than {interval}. Probabilities carry 95 % Wilson intervals, which speak of the number of draws
     only; sensitivities are first-order Sobol indices of the largest growth rate.
     """
@@ -100,11 +102,12 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
     cases, modes = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
     values = values[:len(modes)]
-    checks = _checks(cases, drawn[:len(modes)], points, settings)
+    scatter = [standard_deviation(s, errors) for s in settings.sources]
+    checks = _checks(cases, [drawn[k] for k in _farthest(values, settings.sources, scatter)], points, settings)
     checked = context.map(partial(_checked, points), checks, "whole model")
     return Probability(
         source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
-        scatter=[standard_deviation(s, errors) for s in settings.sources], value=values, most_draws=settings.draws,
+        scatter=scatter, value=values, most_draws=settings.draws,
         least_draws=settings.least_draws, within=settings.interval,
         pressure=np.repeat(model.pressure, len(points.speeds)), speed=np.tile(points.speeds, len(model.pressure)),
         **_results(modes, values, points, len(model.pressure) * len(points.speeds), settings),
@@ -158,6 +161,12 @@ def _modes(task):
             raise ConvergenceError(f"draw {number}: {error.where}", error.expected, error.found,
                                    error.remedy) from error
     return modes
+
+
+def _farthest(values, sources, scatter):
+    """Draws (d,) from the farthest from the nominal brake on, by the standard deviations of their ``values`` (d, s)."""
+    added = np.array([source.kind in ADDITIONS for source in sources])
+    return np.argsort(-(((values - ~added) / scatter) ** 2).sum(axis=1), kind="stable")
 
 
 def _checks(cases, drawn, points, settings):

@@ -66,7 +66,7 @@ def growing_roots(damping, stiffness, change, limit):
     Raises ConvergenceError where a root cannot be solved for.
     """
     square, real = scipy.linalg.eigh(stiffness, driver="evd", check_finite=False)
-    whole = scipy.sparse.eye_array(len(square), format="csr"), damping, stiffness + change
+    whole = np.ones(len(square)), damping, stiffness + change
     try:
         modes = _in_real_modes(damping, change, square, real.astype(np.float32))
         return _solved(_bands(*modes, np.sqrt(np.maximum(square, 0.0)), limit), real, whole, limit)
@@ -77,7 +77,7 @@ def growing_roots(damping, stiffness, change, limit):
 def spectrum_roots(damping, stiffness, change, limit):
     """Growing, as of ``growing_roots``, from all 2 m roots of the system, in double precision."""
     square, real = scipy.linalg.eigh(stiffness, driver="evd", check_finite=False)
-    whole = scipy.sparse.eye_array(len(square), format="csr"), damping, stiffness + change
+    whole = np.ones(len(square)), damping, stiffness + change
     return _of_all(square, real, whole, change, limit)
 
 

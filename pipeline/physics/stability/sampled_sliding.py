@@ -61,10 +61,12 @@ class SlidingBasis:
 
     def slide(self, factors, speed):
         """Contact of a draw at ``speed`` rad/s. Raises ConvergenceError where no sliding state is found."""
-        small = self.small.at_speed(speed)
-        state = self.solve(factors, speed)
+        return self._contact_in(self.solve(factors, speed), factors, speed)
+
+    def _contact_in(self, state, factors, speed):
+        """Contact of a draw in its sliding state (s,)."""
         force, slope = self._contact(factors, state)
-        return Contact(force, slope, _friction(self.family, factors, small, force))
+        return Contact(force, slope, _friction(self.family, factors, self.small.at_speed(speed), force))
 
     def solve(self, factors, speed):
         """Coordinates (s,) of the sliding state of a draw, by Newton's method."""
@@ -85,7 +87,7 @@ class SlidingBasis:
     def residual_of(self, factors, speed):
         """(n,) N: imbalance of the sliding state of a draw in the whole model."""
         family, model, state = self.family, self.family.model.at_speed(speed), self.solve(factors, speed)
-        contact, motion = self.slide(factors, speed), self.shape @ state
+        contact, motion = self._contact_in(state, factors, speed), self.shape @ state
         drawn = model.direction() * contact.friction.coefficient * contact.force
         held = model.stiffness @ motion + _joint_force(model.joints, factors, motion)
         if self.lining is not None:
