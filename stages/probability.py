@@ -86,9 +86,9 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     Method:
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
     point, each about its own steady sliding state, on bases common to all draws; the {checked} farthest from the
-    nominal brake were solved in the whole reduced model as well. From {least_draws} draws on, none were added once half the width of the interval of
-    'overall' was no more than {interval}. Probabilities carry 95 % Wilson intervals, which speak of the number of draws
-    only; sensitivities are first-order Sobol indices of the largest growth rate.
+    nominal brake were solved in the whole reduced model as well. From {least_draws} draws on, none were added once half
+    the width of the interval of 'overall' was no more than {interval}. Probabilities carry 95 % Wilson intervals, which
+    speak of the number of draws only; sensitivities are first-order Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
@@ -165,8 +165,9 @@ def _modes(task):
 
 def _farthest(values, sources, scatter):
     """Draws (d,) from the farthest from the nominal brake on, by the standard deviations of their ``values`` (d, s)."""
-    added = np.array([source.kind in ADDITIONS for source in sources])
-    return np.argsort(-(((values - ~added) / scatter) ** 2).sum(axis=1), kind="stable")
+    away = np.array([[value if source.kind in ADDITIONS else value - 1 if source.distribution == "uniform" else
+                      np.log(value) for source, value in zip(sources, row, strict=True)] for row in values])
+    return np.argsort(-((away / scatter) ** 2).sum(axis=1), kind="stable") if len(values) else []
 
 
 def _checks(cases, drawn, points, settings):

@@ -90,10 +90,10 @@ def quadratic_pairs(mass, damping, stiffness):
 def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, accuracy=_POLISHED):
     """(root 1/s, vector (n,)) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair.
 
-    Arguments as of ``quadratic_modes``; matrices may be complex, sparse with ``factors`` (see ``DenseFactors``) of such,
-    and the mass (n,) a diagonal one. Residual inverse iteration: one factor of T serves all steps, that of ``factors`` if it is ready, and another
-    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). The last step is below ``accuracy`` times the
-    root. Raises ConvergenceError where no root lies close by.
+    Arguments as of ``quadratic_modes``; matrices may be complex, sparse with ``factors`` (see ``DenseFactors``) of
+    such, and the mass (n,) a diagonal one. Residual inverse iteration: one factor of T serves all steps, that of
+    ``factors`` if it is ready, and another where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). The
+    last step is below ``accuracy`` times the root. Raises ConvergenceError where no root lies close by.
     """
     start = s, x = complex(root), vector / np.linalg.norm(vector)
     factors, step = DenseFactors() if factors is None else factors, np.inf
