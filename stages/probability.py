@@ -62,8 +62,8 @@ class Settings(Section):
         "all", "operating points that are sampled: those of all speeds, or of the middle one alone")
     least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts")
     training: int = option(5, "further draws that the common bases are made to serve", ge=1)
-    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point: those"
-                          " farthest from the nominal brake, in standard deviations", ge=0)
+    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point; half"
+                          " of them are those farthest from the nominal brake, in standard deviations", ge=0)
     smallest_correction: float = option(
         1e-2, "corrections of the common bases below this share of the modal amplitude are left out", gt=0)
 
@@ -85,10 +85,11 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Method:
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
-    point, each about its own steady sliding state, on bases common to all draws; the {checked} farthest from the
-    nominal brake were solved in the whole reduced model as well. From {least_draws} draws on, none were added once half
-    the width of the interval of 'overall' was no more than {interval}. Probabilities carry 95 % Wilson intervals, which
-    speak of the number of draws only; sensitivities are first-order Sobol indices of the largest growth rate.
+    point, each about its own steady sliding state, on bases common to all draws; {checked} of them, half
+    of which the farthest from the nominal brake, were solved in the whole reduced model as well. From {least_draws}
+    draws on, none were added once half the width of the interval of 'overall' was no more than {interval}.
+    Probabilities carry 95 % Wilson intervals, which speak of the number of draws only; sensitivities are first-order
+    Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
@@ -103,7 +104,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     cases, modes = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
     values = values[:len(modes)]
     scatter = [standard_deviation(s, errors) for s in settings.sources]
-    checks = _checks(cases, [drawn[k] for k in _farthest(values, settings.sources, scatter)], points, settings)
+    checks = _checks(cases, [drawn[k] for k in _chosen(values, scatter, settings)], points)
     checked = context.map(partial(_checked, points), checks, "whole model")
     return Probability(
         source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
@@ -163,18 +164,21 @@ def _modes(task):
     return modes
 
 
-def _farthest(values, sources, scatter):
-    """Draws (d,) from the farthest from the nominal brake on, by the standard deviations of their ``values`` (d, s)."""
-    away = np.array([[value if source.kind in ADDITIONS else value - 1 if source.distribution == "uniform" else
-                      np.log(value) for source, value in zip(sources, row, strict=True)] for row in values])
-    return np.argsort(-((away / scatter) ** 2).sum(axis=1), kind="stable") if len(values) else []
+def _chosen(values, scatter, settings):
+    """Draws (d,) that are checked: the first ones, and as many of those farthest from the nominal brake, by the
+    standard deviations of their ``values`` (d, s)."""
+    columns = [each if source.kind in ADDITIONS else each - 1 if source.distribution == "uniform" else np.log(each)
+               for source, each in zip(settings.sources, values.T, strict=True)]
+    first = min(len(values), (settings.checked + 1) // 2)
+    far = first + np.argsort(-((np.array(columns).T[first:] / scatter) ** 2).sum(axis=-1), kind="stable")
+    return [*range(first), *far[:settings.checked // 2]]
 
 
-def _checks(cases, drawn, points, settings):
-    """[(Sampled, Factors, speed)]: the first draws, each at another operating point, from the highest load down."""
+def _checks(cases, drawn, points):
+    """[(Sampled, Factors, speed)] of draws, each at another operating point, from the highest load down."""
     places = [(case, speed) for case in cases[::-1] for speed in points.speeds]
     return [(*places[k * (len(points.speeds) + 1) % len(places)], factors)
-            for k, factors in enumerate(drawn[:settings.checked])]
+            for k, factors in enumerate(drawn)]
 
 
 def _checked(points, task):

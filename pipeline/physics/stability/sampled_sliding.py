@@ -161,13 +161,13 @@ def sliding_basis(family, speeds, training=(NOMINAL,)):
     basis = _extended(family, springs, np.empty((model.size, 0)), np.column_stack((first, answers)), first)
     states, middle = [(factors, speed) for speed in speeds for factors in training], float(np.mean(speeds))
     for _ in range(_ROUNDS):
-        residuals = np.array([basis.residual_of(*state) for state in states]).T
-        contact = basis.slide(NOMINAL, middle)
+        basis = replace(basis, start=basis.solve(NOMINAL, middle))
+        contact, residuals = basis.slide(NOMINAL, middle), np.array([basis.residual_of(*state) for state in states]).T
         answers = scipy.linalg.lu_solve(scipy.linalg.lu_factor(_tangent(family, contact, middle)), residuals)
         change = contact.stiffness[:, None] * abs(contacts.normal @ answers) / max(contact.force.max(), _TINY)
         change = change.max(axis=0, initial=0.0)
         if change.max() <= _SERVED:
-            return replace(basis, residual=float(change.max()), start=basis.solve(NOMINAL, middle))
+            return replace(basis, residual=float(change.max()))
         basis = _extended(family, springs, basis.shape, answers[:, change > _SERVED], basis.shape @ basis.start)
     raise ConvergenceError("steady sliding of draws", f"changes of contact forces below {_SERVED:g} of the largest",
                            f"{change.max():.2g} after {_ROUNDS} rounds", "narrow the scatter")

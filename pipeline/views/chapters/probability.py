@@ -89,8 +89,8 @@ def accuracy(probability):
                 f" {int(probability.missed)} that only one of both has.")
     frequency = abs(probability.checked_root.imag / roots.imag - 1).max()
     growth = abs(probability.checked_root.real - roots.real).max()
-    return (f"{plural(draws, 'draw')} solved in the whole reduced model as well, the farthest from the nominal brake,"
-            f" {plural(len(roots), 'unstable mode')}:"
+    return (f"{plural(draws, 'draw')} solved in the whole reduced model as well, half of them the farthest from the"
+            f" nominal brake, {plural(len(roots), 'unstable mode')}:"
             f" frequencies within {percent(frequency, 2)}, growth rates within {quantity(growth, '1/s', 2)};"
             f" {int(probability.missed)} with more than 10 1/s that only one of both has.")
 
