@@ -1,8 +1,9 @@
 """Stage probability: how likely unstable modes are over the declared scatter of a brake.
 
-Draws are made before the fan-out and solved in rounds of one size, after each of which it is decided whether they are
-enough, so that the number of workers changes no bit. Each is solved on bases that all draws of one pressure share; a
-few are solved in the whole reduced model as well, which states the error, and for all roots on the common bases.
+Draws are made before the fan-out and solved in rounds: the first of the least number, each other of as many as the
+share that squeals asks for so far, so that the number of workers changes no bit. Each is solved on bases that all draws
+of one pressure share; a few are solved in the whole reduced model as well, which states the error, and for all roots on
+the common bases. All are solved at every operating point, of which each has a statement of its own.
 """
 
 from dataclasses import replace
@@ -13,6 +14,7 @@ import numpy as np
 from pipeline.case_models import effect_block
 from pipeline.case_models.operating_points import Speeds, selected_speeds
 from pipeline.case_models.scatter import (
+    ADDITIONS,
     DEFAULT,
     Source,
     check_sources,
@@ -28,6 +30,7 @@ from pipeline.case_models.scatter import (
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.stability.draw_statistics import (
     among_bands,
+    draws_needed,
     first_order,
     rate_interval,
     squealing,
@@ -39,8 +42,8 @@ from pipeline.physics.stability.whole_roots import accuracy, beside_whole
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel
 
 TWO_PI = 2.0 * np.pi
-#: draws of one round, and of one task of the fan-out
-_ROUND, _CHUNK = 50, 25
+#: fewest draws of the first round and of others, and of one task of the fan-out
+_FIRST, _ROUND, _CHUNK = 20, 10, 20
 #: lowest 1/3 octave band, Hz
 _LOWEST_BAND = 200.0
 
@@ -50,8 +53,8 @@ class Settings(Section):
 
     draws: int = option(500, "most draws; 0 = none, and no probability", ge=0)
     interval: float = option(
-        0.05, "no more draws are made once the 95 % interval of the share that squeals at any operating point lies"
-        " within this of it; 0 = all are made", ge=0, lt=1)
+        0.05, "no more draws are made once half the width of the 95 % interval of the share that squeals at any"
+        " operating point is no more than this; 0 = all are made", ge=0, lt=1)
     least_draws: int = option(100, "draws that are made in any case, for what the causes say", ge=0)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
@@ -59,7 +62,8 @@ class Settings(Section):
         "all", "operating points that are sampled: those of all speeds, or of the middle one alone")
     least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts")
     training: int = option(5, "further draws that the common bases are made to serve", ge=1)
-    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point", ge=0)
+    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point; half"
+                          " of them are those farthest from the nominal brake, in standard deviations", ge=0)
     smallest_correction: float = option(
         1e-2, "corrections of the common bases below this share of the modal amplitude are left out", gt=0)
 
@@ -81,10 +85,11 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Method:
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
-    point, each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the
-    whole reduced model as well. From {least_draws} draws on, none were added once the interval of 'overall' was
-    within {interval} of it. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only;
-    sensitivities are first-order Sobol indices of the largest growth rate.
+    point, each about its own steady sliding state, on bases common to all draws; {checked} of them, half
+    of which the farthest from the nominal brake, were solved in the whole reduced model as well. From {least_draws}
+    draws on, none were added once half the width of the interval of 'overall' was no more than {interval}.
+    Probabilities carry 95 % Wilson intervals, which speak of the number of draws only; sensitivities are first-order
+    Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
@@ -98,11 +103,12 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
     cases, modes = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
     values = values[:len(modes)]
-    checks = _checks(cases, drawn[:len(modes)], points, settings)
+    scatter = [standard_deviation(s, errors) for s in settings.sources]
+    checks = _checks(cases, [drawn[k] for k in _chosen(values, scatter, settings)], points)
     checked = context.map(partial(_checked, points), checks, "whole model")
     return Probability(
         source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
-        scatter=[standard_deviation(s, errors) for s in settings.sources], value=values, most_draws=settings.draws,
+        scatter=scatter, value=values, most_draws=settings.draws,
         least_draws=settings.least_draws, within=settings.interval,
         pressure=np.repeat(model.pressure, len(points.speeds)), speed=np.tile(points.speeds, len(model.pressure)),
         **_results(modes, values, points, len(model.pressure) * len(points.speeds), settings),
@@ -121,8 +127,8 @@ def _solved(families, drawn, training, points, settings, context):
     """(Sampled of every pressure, Growing [draw][operating point]) of as many draws as the statement needs."""
     cases = context.map(partial(_sampled, points, training, settings.smallest_correction), families, "common bases")
     few, modes = [case.compact() for case in cases], []
-    while len(modes) < len(drawn) and not _enough(modes, points, settings):
-        numbers = range(len(modes), min(len(modes) + _ROUND, len(drawn)))
+    while len(modes) < (end := min(_wanted(modes, points, settings), len(drawn))):
+        numbers = range(len(modes), end)
         chunks = [numbers[k:k + _CHUNK] for k in range(0, len(numbers), _CHUNK)]
         tasks = [(case, points.speeds, [(k, drawn[k]) for k in chunk]) for case in few for chunk in chunks]
         parts = context.map(_modes, tasks, "draws")
@@ -131,14 +137,14 @@ def _solved(families, drawn, training, points, settings, context):
     return cases, modes
 
 
-def _enough(modes, points, settings):
-    """Whether so many draws say how likely squeal is at any operating point."""
-    if not settings.interval or len(modes) < max(settings.least_draws, 1):
-        return False
-    unstable = _unstable(modes, points, settings)
-    hits = squealing(unstable["root"], unstable["root_draw"], unstable["root_operating"], (len(modes), len(modes[0])),
-                     points.squeal_from).any(axis=1)
-    return max(abs(np.array(rate_interval(hits.sum(), len(hits))) - hits.mean())) <= settings.interval
+def _wanted(modes, points, settings):
+    """Number of draws that say how likely squeal is at any operating point, by the ``modes`` of those made."""
+    made = len(modes)
+    if not settings.interval or made < max(settings.least_draws, _FIRST):
+        return max(settings.least_draws, _FIRST) if settings.interval else settings.draws
+    hits = _hits(_unstable(modes, points, settings), (made, len(modes[0])), points).any(axis=1)
+    needed = draws_needed(hits.sum(), made, settings.interval)
+    return max(needed, made + _ROUND) if needed > made else made
 
 
 def _sampled(points, training, smallest, case):
@@ -158,11 +164,21 @@ def _modes(task):
     return modes
 
 
-def _checks(cases, drawn, points, settings):
-    """[(Sampled, Factors, speed)]: the first draws, each at another operating point, from the highest load down."""
+def _chosen(values, scatter, settings):
+    """Draws (d,) that are checked: the first ones, and as many of those farthest from the nominal brake, by the
+    standard deviations of their ``values`` (d, s)."""
+    columns = [each if source.kind in ADDITIONS else each - 1 if source.distribution == "uniform" else np.log(each)
+               for source, each in zip(settings.sources, values.T, strict=True)]
+    first = min(len(values), (settings.checked + 1) // 2)
+    far = first + np.argsort(-((np.array(columns).T[first:] / scatter) ** 2).sum(axis=-1), kind="stable")
+    return [*range(first), *far[:settings.checked // 2]]
+
+
+def _checks(cases, drawn, points):
+    """[(Sampled, Factors, speed)] of draws, each at another operating point, from the highest load down."""
     places = [(case, speed) for case in cases[::-1] for speed in points.speeds]
     return [(*places[k * (len(points.speeds) + 1) % len(places)], factors)
-            for k, factors in enumerate(drawn[:settings.checked])]
+            for k, factors in enumerate(drawn)]
 
 
 def _checked(points, task):
@@ -181,6 +197,11 @@ def _unstable(modes, points, settings):
     return {name: np.array([row[k] for row in rows], kind) for k, (name, kind) in enumerate(names)}
 
 
+def _hits(unstable, shape, points):
+    """``shape`` (draw, operating point): whether a draw squeals; ``unstable`` as of ``_unstable``."""
+    return squealing(unstable["root"], unstable["root_draw"], unstable["root_operating"], shape, points.squeal_from)
+
+
 def _results(modes, values, points, operating, settings):
     """Fields of growth, unstable roots, probabilities and sensitivities."""
     count = len(modes)
@@ -190,7 +211,7 @@ def _results(modes, values, points, operating, settings):
     unstable = _unstable(modes, points, settings)
     root, draw, place = (unstable[name] for name in ("root", "root_draw", "root_operating"))
     middles = third_octaves(_LOWEST_BAND, points.frequency_max)
-    hits = squealing(root, draw, place, (count, operating), points.squeal_from)
+    hits = _hits(unstable, (count, operating), points)
     bands = np.zeros((count, len(middles), operating), bool)
     bands[draw, among_bands(root, middles), place] = True
     anywhere, index = bands.any(axis=2), first_order(values, growth.max(axis=1), settings.seed)

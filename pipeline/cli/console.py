@@ -100,8 +100,7 @@ class RunContext(context.Context):
     executor: object = None
     bars: object = None
 
-    def map(self, function, items, label=""):
-        items = list(items)
+    def fan_out(self, function, items, label=""):
         with self.bars.work(label, len(items)) as progress:
             return self.executor.map(function, items, progress.advance)
 

@@ -2,6 +2,7 @@
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 
 
 class Progress:
@@ -33,10 +34,15 @@ class Context:
 
     solver: str = "superlu"
     case: CaseSummary = CaseSummary()
+    kept: object = None     # integrity.kept.Kept of the stage that runs, or None
 
     def map(self, function, items, label=""):
         """``[function(item) for item in items]``, in order; ``function`` must be picklable."""
-        items = list(items)
+        fan_out, items = partial(self.fan_out, label=label), list(items)
+        return fan_out(function, items) if self.kept is None else self.kept.completed(fan_out, function, items)
+
+    def fan_out(self, function, items, label=""):
+        """What ``map`` computes; ``items`` is a list."""
         with self.progress(label, len(items)) as progress:
             results = []
             for item in items:

@@ -17,6 +17,7 @@ from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.executors.long_tasks import LongTasks
 from pipeline.contract.integrity import checksum, examined, seen
+from pipeline.contract.integrity.kept import Kept
 from pipeline.contract.integrity.lock import closed, locked
 from pipeline.contract.integrity.origin import git_commit, kernels, packages
 from pipeline.contract.integrity.verify import recorded
@@ -264,8 +265,7 @@ class ChainRun:
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
         varied = [report(*done) for done in self._bring_variants(stage, context)]       # each as it is computed
         state = self._forced(self.state(stage), force)
-        seconds = self._compute(stage, context) if state.reasons else None
-        report(replace(state, variant=self.variant), seconds)
+        report(replace(state, variant=self.variant), self._compute(stage, context) if state.reasons else None)
         return len(varied) + bool(state.reasons)
 
     @staticmethod
@@ -310,11 +310,14 @@ class ChainRun:
 
     def _compute(self, stage, context):
         arguments, current = self.arguments(stage, context)
+        kept = Kept.of(self.folder / f".{stage.name}.kept", asdict(current), packages())
+        context = replace(context, kept=kept if context.sees_files else None)
         wall, cpu = time.perf_counter(), cpu_seconds() + context.spent_elsewhere()
         with context.stage(stage):
             output = stage(**arguments, context=context)
         seconds = time.perf_counter() - wall
         self.publish(stage, output, current, seconds, cpu_seconds() + context.spent_elsewhere() - cpu)
+        kept.forget()
         return seconds
 
     def publish(self, stage, output, current, seconds, cpu):

@@ -83,7 +83,7 @@ class Convergence:
     converged: Array = count("", "1 if everything is refined and all unstable modes stay within the tolerances")
 
 
-@product(version=4)
+@product(version=5)
 class Probability:
     """Unstable modes over the scatter of a brake: seeded draws, and what they say of each operating point."""
 
@@ -93,7 +93,7 @@ class Probability:
     value: Array = quantity("1", "draw source", "drawn factor on the nominal value; of friction the change of mu, or of its slope over a logarithm")
     most_draws: Array = count("", "most draws that were allowed")
     least_draws: Array = count("", "draws that were made in any case")
-    within: Array = quantity("1", "", "distance of the ends of overall_interval from overall that ended the draws; 0 for none")
+    within: Array = quantity("1", "", "half the width of overall_interval that ended the draws; 0 for none")
     pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
     speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")
     growth: Array = quantity("1/s", "draw operating", "largest growth rate below the frequency limit")

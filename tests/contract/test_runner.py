@@ -14,6 +14,7 @@ from pipeline import sources
 from pipeline.cli.console import Bars, RunContext
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
 from pipeline.contract.executors import choose
+from pipeline.contract.integrity import kept
 from pipeline.contract.integrity.lock import locked
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Compared, Doubled
@@ -53,6 +54,27 @@ def test_a_changed_setting_reruns_its_stage_and_what_follows(config):
     told = []
     assert changed.execute(Context(), report=lambda state, seconds: told.append((state.stage.name, state.reasons))) == 2
     assert told == [("source", ("setting level: 1000.0 -> 2000.0",)), ("doubled", ("input given changed",))]
+
+
+def test_what_a_killed_run_kept_is_used_and_gone_with_the_product(config, monkeypatch):
+    """A run that ends while it writes its product: what its tasks gave is not computed again."""
+    monkeypatch.setattr(kept, "_SHORTEST", 0.0)
+    write, folder = store.write, config.parent / "run"
+
+    def refuse(item, path, *more):
+        if path.stem == "doubled":
+            raise KeyboardInterrupt
+        return write(item, path, *more)
+
+    monkeypatch.setattr(store, "write", refuse)
+    with pytest.raises(KeyboardInterrupt):
+        job(config).execute(Context())
+    assert os.listdir(folder / ".doubled.kept") and not (folder / ".source.kept").exists()
+    monkeypatch.setattr(store, "write", write)
+    monkeypatch.setattr("tests.contract.toy.doubled._times", lambda factor, signal: pytest.fail("computed again"))
+    job(config).execute(Context())
+    assert store.read(Doubled, folder / "doubled.h5").signal[0, 0] == 2000.0
+    assert not list(folder.glob(".*.kept"))
 
 
 def test_the_same_content_upstream_spares_what_follows(config):

@@ -90,10 +90,10 @@ def quadratic_pairs(mass, damping, stiffness):
 def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, accuracy=_POLISHED):
     """(root 1/s, vector (n,)) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair.
 
-    Arguments as of ``quadratic_modes``; matrices may be complex, and sparse with ``factors`` (see ``DenseFactors``) of
-    such. Residual inverse iteration: one factor of T serves all steps, that of ``factors`` if it is ready, and another
-    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). The last step is below ``accuracy`` times the
-    root. Raises ConvergenceError where no root lies close by.
+    Arguments as of ``quadratic_modes``; matrices may be complex, sparse with ``factors`` (see ``DenseFactors``) of
+    such, and the mass (n,) a diagonal one. Residual inverse iteration: one factor of T serves all steps, that of
+    ``factors`` if it is ready, and another where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). The
+    last step is below ``accuracy`` times the root. Raises ConvergenceError where no root lies close by.
     """
     start = s, x = complex(root), vector / np.linalg.norm(vector)
     factors, step = DenseFactors() if factors is None else factors, np.inf
@@ -145,8 +145,12 @@ def _operator(mass, damping, stiffness, s, beside, x=None):
     if settles:
         answer, push = 1 / (s + beside.decay), beside.push
         heard = beside.by_place + s * beside.by_speed
-    if x is None:
+    if x is None and mass.ndim == 1:
+        whole = s * damping + stiffness
+        whole[np.diag_indices(len(mass))] += s**2 * mass
+    elif x is None:
         whole = s**2 * mass + s * damping + stiffness
+    if x is None:
         return (whole - (push * answer) @ heard if settles else whole), None
     inertia, drag = product(mass, x), product(damping, x)
     operator, slope = s**2 * inertia + s * drag + product(stiffness, x), 2 * s * inertia + drag

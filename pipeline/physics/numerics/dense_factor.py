@@ -5,7 +5,10 @@ import scipy
 
 
 def product(matrix, x):
-    """``matrix`` @ ``x`` of a vector (n,); a real matrix, dense or sparse, is not copied into complex numbers."""
+    """``matrix`` @ ``x`` of a vector (n,); a real matrix, dense or sparse, is not copied into complex numbers; of a
+    diagonal one ``matrix`` (n,) is the diagonal."""
+    if matrix.ndim == 1:
+        return matrix * x
     if np.iscomplexobj(x) and not np.iscomplexobj(matrix):
         return matrix @ x.real + 1j * (matrix @ x.imag)
     return matrix @ x

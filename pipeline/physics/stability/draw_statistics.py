@@ -6,6 +6,8 @@ import scipy
 #: fewest draws of a bin of the first-order index, and most bins
 _PER_BIN, _MOST_BINS = 20, 20
 _RESAMPLES = 200
+#: standard deviations to each side of 95 % of a normal distribution
+_SIDES = 1.959963984540054
 
 
 def rate_interval(hits, count):
@@ -14,6 +16,14 @@ def rate_interval(hits, count):
         return 0.0, 1.0
     interval = scipy.stats.binomtest(int(hits), int(count)).proportion_ci(0.95, "wilson")
     return float(interval.low), float(interval.high)
+
+
+def draws_needed(hits, count, within):
+    """Least number of draws, no less than the ``count`` (above 0) that had so many ``hits``, at which half the width of
+    the 95 % interval of the same rate is no more than ``within`` (above 0)."""
+    rate, more = hits / count, np.arange(count, count + int((_SIDES / within) ** 2) + 2)
+    half = _SIDES * np.sqrt(rate * (1 - rate) / more + (_SIDES / (2 * more)) ** 2) / (1 + _SIDES**2 / more)
+    return int(more[np.argmax(half <= within)])
 
 
 def rate_change(before, after, paired):

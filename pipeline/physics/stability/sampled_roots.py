@@ -120,9 +120,10 @@ class Sampled:
         """(K without friction, K_f, C) (m, m) of the contacts of a draw, as of ``SlidingModel.linearised``."""
         model, state = _about(self.family, self.small.at_speed(speed), factors, contact)
         contacts, coupling = model.contacts, model.coupling(state)
-        drag = (contacts.normal.T + contacts.tangent.T * coupling) * contacts.damping @ contacts.normal
+        along = (coupling * contacts.damping)[:, None] * contacts.normal
         if np.any(state.speed_slope):
-            drag += spread(contacts.tangent, contacts.preload * state.speed_slope, contacts.tangent)
+            along += (contacts.preload * state.speed_slope)[:, None] * contacts.tangent
+        drag = _squared(contacts.normal, contacts.damping) + contacts.tangent.T @ along
         if self.family.friction_damping:
             drag += _squared(contacts.lateral, model.turning_drag(state.coefficient))
         return (_squared(contacts.normal, contact.stiffness),

@@ -61,10 +61,12 @@ class SlidingBasis:
 
     def slide(self, factors, speed):
         """Contact of a draw at ``speed`` rad/s. Raises ConvergenceError where no sliding state is found."""
-        small = self.small.at_speed(speed)
-        state = self.solve(factors, speed)
+        return self._contact_in(self.solve(factors, speed), factors, speed)
+
+    def _contact_in(self, state, factors, speed):
+        """Contact of a draw in its sliding state (s,)."""
         force, slope = self._contact(factors, state)
-        return Contact(force, slope, _friction(self.family, factors, small, force))
+        return Contact(force, slope, _friction(self.family, factors, self.small.at_speed(speed), force))
 
     def solve(self, factors, speed):
         """Coordinates (s,) of the sliding state of a draw, by Newton's method."""
@@ -85,7 +87,7 @@ class SlidingBasis:
     def residual_of(self, factors, speed):
         """(n,) N: imbalance of the sliding state of a draw in the whole model."""
         family, model, state = self.family, self.family.model.at_speed(speed), self.solve(factors, speed)
-        contact, motion = self.slide(factors, speed), self.shape @ state
+        contact, motion = self._contact_in(state, factors, speed), self.shape @ state
         drawn = model.direction() * contact.friction.coefficient * contact.force
         held = model.stiffness @ motion + _joint_force(model.joints, factors, motion)
         if self.lining is not None:
@@ -159,13 +161,13 @@ def sliding_basis(family, speeds, training=(NOMINAL,)):
     basis = _extended(family, springs, np.empty((model.size, 0)), np.column_stack((first, answers)), first)
     states, middle = [(factors, speed) for speed in speeds for factors in training], float(np.mean(speeds))
     for _ in range(_ROUNDS):
-        residuals = np.array([basis.residual_of(*state) for state in states]).T
-        contact = basis.slide(NOMINAL, middle)
+        basis = replace(basis, start=basis.solve(NOMINAL, middle))
+        contact, residuals = basis.slide(NOMINAL, middle), np.array([basis.residual_of(*state) for state in states]).T
         answers = scipy.linalg.lu_solve(scipy.linalg.lu_factor(_tangent(family, contact, middle)), residuals)
         change = contact.stiffness[:, None] * abs(contacts.normal @ answers) / max(contact.force.max(), _TINY)
         change = change.max(axis=0, initial=0.0)
         if change.max() <= _SERVED:
-            return replace(basis, residual=float(change.max()), start=basis.solve(NOMINAL, middle))
+            return replace(basis, residual=float(change.max()))
         basis = _extended(family, springs, basis.shape, answers[:, change > _SERVED], basis.shape @ basis.start)
     raise ConvergenceError("steady sliding of draws", f"changes of contact forces below {_SERVED:g} of the largest",
                            f"{change.max():.2g} after {_ROUNDS} rounds", "narrow the scatter")

@@ -58,24 +58,23 @@ def test_growing_roots_and_the_least_stable_one_are_those_of_all_roots(damped, g
     assert grown >= grow
 
 
-def test_all_roots_say_what_the_condensed_system_says():
-    seeds, condensed = range(4), 0
+def test_all_roots_say_what_the_bands_say():
+    seeds, banded = range(4), 0
     for seed in seeds:
         matrices = system(seed, 0.02)
         some, every = growing_roots(*matrices, LIMIT), spectrum_roots(*matrices, LIMIT)
         grow = every.value[every.value.real > 0]
         np.testing.assert_allclose(some.value[some.value.real > 0], grow, rtol=1e-7)
         assert every.whole and len(grow)
-        condensed += not some.whole
-    assert condensed
+        banded += not some.whole
+    assert banded
 
 
 @pytest.mark.exact
-def test_where_the_condensation_does_not_serve_all_roots_are_computed(monkeypatch):
-    """A small problem whose roots all lie too far down is seen, and no root lost."""
-    honest = growing.__dict__["_Condensed"].roots
-    monkeypatch.setattr(growing.__dict__["_Condensed"], "roots",
-                        lambda self: honest(self) - (100.0 if len(self.mass) < 140 else 0.0))
+def test_where_the_bands_do_not_serve_all_roots_are_computed(monkeypatch):
+    """Bands whose roots all lie too far down are seen, and no root lost."""
+    honest = growing.__dict__["_Band"].roots
+    monkeypatch.setattr(growing.__dict__["_Band"], "roots", lambda self: honest(self) - 100.0)
     matrices = system(0, 0.02)
     modes, exact = growing_roots(*matrices, LIMIT), every_root(*matrices)
     assert modes.whole and (exact.real > 0).any()

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.physics.stability.draw_statistics import (
     among_bands,
     band_of,
+    draws_needed,
     first_order,
     rate_change,
     rate_interval,
@@ -16,11 +18,44 @@ from pipeline.physics.stability.draw_statistics import (
 pytestmark = pytest.mark.exact
 
 
-def test_interval_is_wilsons():
-    n, p, z = 40, 10 / 40, 1.959963984540054
+def _wilson(hits, n):
+    """(middle, half the width) of the interval."""
+    p, z = hits / n, 1.959963984540054
     middle, half = p + z**2 / (2 * n), z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
-    np.testing.assert_allclose(rate_interval(10, 40), np.array([middle - half, middle + half]) / (1 + z**2 / n))
+    return middle / (1 + z**2 / n), half / (1 + z**2 / n)
+
+
+def test_interval_is_wilsons():
+    middle, half = _wilson(10, 40)
+    np.testing.assert_allclose(rate_interval(10, 40), (middle - half, middle + half))
     assert rate_interval(0, 0) == (0.0, 1.0)
+
+
+def test_draws_needed_are_the_first_whose_interval_is_narrow_enough():
+    for hits, count in ((87, 100), (50, 100), (0, 20), (20, 20)):
+        needed = draws_needed(hits, count, 0.05)
+        assert _wilson(hits / count * needed, needed)[1] <= 0.05 < _wilson(hits / count * (needed - 1), needed - 1)[1]
+    assert draws_needed(90, 1000, 0.05) == 1000
+
+
+def test_ending_draws_by_the_width_of_the_interval_takes_less_than_a_point_off_its_95_percent():
+    """Exactly: the chance of every number of hits at every end of the draws, as the stage makes them by default."""
+    rate, step, within, layer, covered = 0.87, 10, 0.05, {(0, 0): 1.0}, 0.0
+    while layer:
+        following = {}
+        for (hits, count), chance in layer.items():
+            needed = draws_needed(hits, count, within) if count else 100
+            if needed == count:
+                low, high = rate_interval(hits, count)
+                covered += chance * (low <= rate <= high)
+                continue
+            more = max(needed - count, step)
+            for extra, share in enumerate(scipy.stats.binom.pmf(np.arange(more + 1), more, rate)):
+                if chance * share > 1e-7:
+                    key = hits + extra, count + more
+                    following[key] = following.get(key, 0.0) + chance * share
+        layer = following
+    assert 0.94 < covered < 0.95
 
 
 def test_change_of_two_rates_is_that_of_newcombes_example():

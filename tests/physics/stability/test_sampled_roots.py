@@ -68,6 +68,16 @@ def test_roots_are_those_of_the_whole_model(block, factors):
     assert np.sum(roots.real > 10) <= np.sum(exact.real > 0)
 
 
+@pytest.mark.exact
+@pytest.mark.parametrize("factors", [Factors(friction=0.4), Factors(0.3, 1.0, 1.0, 0.5, 4.0)],
+                         ids=["twice the friction", "loose joints, soft lining, hard contacts"])
+def test_draws_far_beyond_the_training_are_those_of_the_whole_model(block, factors):
+    exact, roots = whole_roots(block.family, factors, 2.5, 20e3, smallest=1e-4), block.roots(factors, 2.5)
+    exact, roots = (each[each.real > 10] for each in (exact, roots))
+    assert len(roots) == len(exact) > 0
+    np.testing.assert_allclose(roots, exact, rtol=1e-3)
+
+
 def test_the_block_has_growing_roots_in_some_draws_and_none_in_others(block):
     growth = [block.roots(factors, 2.5)[0].real for factors in draws(12, 12)]
     assert min(growth) < 0 < max(growth)
