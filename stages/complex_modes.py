@@ -64,7 +64,7 @@ class Settings(Section):
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion; under hard contacts"
                                                  " all do")
     smallest_correction: float = option(
-        1e-5, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
+        1e-4, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")
     friction_slopes: bool = option(True, "friction that changes with pressure and slip speed, at the operating points")
     friction_damping: bool = option(True, "friction that turns with the slip velocity damps sideways motion")
@@ -163,8 +163,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
-    operating points, each about its own steady sliding state, in a basis of the real modes below
-    {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
+    operating points, each about its own steady sliding state, in a basis for each pressure of the real modes below
+    {frequency_max}, at half of the highest friction, and their corrections for friction and contacts; at the operating points, roots that grow or nearly do were then
     solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}), and then
     in the full finite-element matrices, about the steady sliding of the elements themselves, where a brake has these
     (largest residual: {residual_tolerance}). A closing speed of {damping_speed} doubles the contact pressure (contact
@@ -182,7 +182,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     law = sliding_friction(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
     losses = [Losses.of(at_state(model, k)) for k in range(len(models)) for _ in settings.speeds]
-    tasks = [(*point, lost) for point, lost in zip(points, losses, strict=True)]
+    tasks = [(case, states[k // len(settings.speeds)], lost)
+             for k, ((case, _), lost) in enumerate(zip(points, losses, strict=True))]
     outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
     if has_full_matrices(structure, models[0][0], settings, context):
         outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, law[1], model.contact_body,
@@ -213,24 +214,26 @@ def _told(terms, context):
 
 
 def _state(settings, task):
-    """The model about its state without friction, on a basis that serves all states of the sweep."""
+    """The model about its state without friction, on a basis that serves all states of the sweep and those of the
+    operating points: that of half the friction of the sweep, with what its ends change in the contacts."""
     case, input_force = task
-    response, seeking = case.response(settings.centrifugal), case.seeking
-    still = seeking.slide(response, input_force, constant(0.0), 0.0, settings)
-    about = still.about(case.bench.model)
-    basis = _basis(about, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
-    bare = replace(case.bench.model, contacts=about.contacts)
-    bare = bare if is_hard(about) else bare.projected(basis.shape)
+    response, seeking, model = case.response(settings.centrifugal), case.seeking, case.bench.model
+    still, middle, last = (seeking.slide(response, input_force, constant(mu), mu, settings)
+                           for mu in (0.0, settings.friction_max / 2, settings.friction_max))
+    basis = _basis(middle.about(model), settings, [end.contact.stiffness - middle.contact.stiffness
+                                                   for end in (still, last)])
+    bare = replace(model, contacts=still.about(model).contacts)
+    bare = bare if is_hard(bare) else bare.projected(basis.shape)
     return _State(bare, response, input_force, basis, still, seeking if case.moved else case.within(bare))
 
 
-def _basis(model, settings, contact_stiffness=0.0):
+def _basis(model, settings, changes):
     if is_hard(model):
         shape = allowed_motions(model)
         frequency = _frequencies(np.diag(hard_sliding(model, 0.0, shape, friction_damping=False).stiffness))
         return FrictionBasis(shape, frequency[frequency < settings.frequency_max], 0)
     return friction_basis(model, settings.frequency_max, settings.friction_damping, settings.smallest_correction,
-                          contact_stiffness, settings.centrifugal, branch_stiffness(model))
+                          changes, settings.centrifugal, branch_stiffness(model), adjoint=1.0)
 
 
 def _sweep(states, friction, settings, context):
@@ -255,12 +258,13 @@ def _roots_over_friction(settings, task):
 
 
 def _operate(settings, law, task):
-    """Sliding state with friction of the law, and the modes about it on a basis of its own."""
-    case, input_force, losses = task
-    sliding = case.seeking.slide(case.response(settings.centrifugal), input_force, *law, settings)
+    """Sliding state with friction of the law, and the modes about it on the basis of its pressure."""
+    case, state, losses = task
+    sliding = case.seeking.slide(case.response(settings.centrifugal), state.input_force, *law, settings)
     model = sliding.about(case.bench.model)
-    basis = _basis(model, settings)
-    about = model if is_hard(model) else model.projected(basis.shape)
+    hard = is_hard(model)
+    basis = _basis(model, settings, 0.0) if hard else state.basis
+    about = model if hard else sliding.about(state.model.at_speed(model.speed))
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     root = quadratic_roots(*matrices, beside)
     near = np.flatnonzero(nearly(root, settings) & (root.imag >= 0))
