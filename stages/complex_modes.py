@@ -163,14 +163,14 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
-    operating points, each about its own steady sliding state, in a basis for each pressure of the real modes below
-    {frequency_max}, at half of the highest friction, and their corrections for friction and contacts; at the operating points, roots that grow or nearly do were then
-    solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}), and then
-    in the full finite-element matrices, about the steady sliding of the elements themselves, where a brake has these
-    (largest residual: {residual_tolerance}). A closing speed of {damping_speed} doubles the contact pressure (contact
-    damping). A mode is unstable if its growth rate exceeds {neutral} times its angular frequency. Up to {followed}
-    unstable modes were followed in the reduced model from the friction of their operating point down to none, at its
-    contact forces, by the modal assurance criterion.
+    operating points, each about its own steady sliding state, for each pressure in a basis of the real modes below
+    {frequency_max} and their corrections for friction and what it changes in the contacts; at the operating points,
+    roots that grow or nearly do were then solved for in the whole reduced model, with loss factors as imaginary
+    stiffness (hysteretic: {hysteretic}), and then in the full finite-element matrices, about the steady sliding of the
+    elements themselves, where a brake has these (largest residual: {residual_tolerance}). A closing speed of
+    {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth rate exceeds
+    {neutral} times its angular frequency. Up to {followed} unstable modes were followed in the reduced model from the
+    friction of their operating point down to none, at its contact forces, by the modal assurance criterion.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)
