@@ -11,7 +11,7 @@ with which both complex modes and motions over time are computed, so that they s
 
 import numpy as np
 
-from pipeline.physics.modal.natural_modes import all_modes
+from pipeline.physics.modal.natural_modes import all_modes, times_mass
 
 #: share of the highest frequency below which a motion is rigid
 _RIGID = 1e-7
@@ -43,4 +43,4 @@ def _weighted_modes(stiffness, mass):
     angular = np.sqrt(np.maximum(square, 0.0))
     moving = angular > _RIGID * angular[-1]
     modes, root = modes[:, moving], np.sqrt(angular[moving])
-    return modes / root, mass @ modes
+    return modes / root, times_mass(mass, modes)
