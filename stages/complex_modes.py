@@ -16,7 +16,7 @@ import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.friction_paths import over_friction
-from pipeline.case_models.full_matrices import has_full_matrices
+from pipeline.case_models.full_matrices import has_full_matrices, slid_on_elements
 from pipeline.case_models.operating_modes import balances, growing, in_full, path_fields_of, unstable_fields
 from pipeline.case_models.steady_sliding import (
     Posed,
@@ -178,16 +178,16 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     refuse_twice(models[0][0].bench, settings.friction_damping)
     states = context.map(partial(_state, settings), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
-    roots = _sweep(states, friction, settings, context)
-    law = sliding_friction(friction_map, model, settings)
-    points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = [Losses.of(at_state(model, k)) for k in range(len(models)) for _ in settings.speeds]
-    tasks = [(case, states[k // len(settings.speeds)], lost)
-             for k, ((case, _), lost) in enumerate(zip(points, losses, strict=True))]
+    law, number = sliding_friction(friction_map, model, settings), len(settings.speeds)
+    full = has_full_matrices(structure, models[0][0], settings, context)
+    slide = partial(slid_on_elements, partial(full_model, structure, context.solver), context.solver, law, settings)
+    roots, about = _sweep(states, friction, slide if full else None, settings, context)
+    points = [m.at_speed(speed) for m, _ in models for speed in settings.speeds]
+    losses = [Losses.of(at_state(model, k // number)) for k in range(len(points))]
+    tasks = [(case, states[k // number], lost) for k, (case, lost) in enumerate(zip(points, losses, strict=True))]
     outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
-    if has_full_matrices(structure, models[0][0], settings, context):
-        outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, law[1], model.contact_body,
-                           settings, context)
+    if full:
+        outcomes = in_full(about, points, outcomes, model.contact_body, settings, context)
     outcomes = [growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
@@ -236,13 +236,22 @@ def _basis(model, settings, changes):
                           changes, settings.centrifugal, branch_stiffness(model), adjoint=1.0)
 
 
-def _sweep(states, friction, settings, context):
-    """Roots (friction, n) of every state, followed over friction from the lowest without friction upwards."""
+def _sweep(states, friction, slide, settings, context):
+    """(Roots (friction, n) of every state, followed over friction from the lowest without friction upwards; the answer
+    of ``slide``, unless it is None, to all operating points, which takes as long as all that is done beside it)."""
     chunks = np.array_split(friction, -(-len(friction) // _CHUNK))
-    results = context.map(partial(_roots_over_friction, settings), [(s, c) for s in states for c in chunks],
-                          "friction sweep")
+    points = [(s.posed.at_speed(speed), s.response, s.input_force) for s in states for speed in settings.speeds]
+    beside = [] if slide is None else [(slide, points)]
+    results = context.map(_answer, [*beside, *((partial(_roots_over_friction, settings), (s, c))
+                                               for s in states for c in chunks)], "friction sweep")
+    about, results = results[:len(beside)], results[len(beside):]
     roots = [np.vstack(results[k:k + len(chunks)]) for k in range(0, len(results), len(chunks))]
-    return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots]
+    return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots], *(about or [None])
+
+
+def _answer(task):
+    """function(argument) of a ``task`` (function, argument)."""
+    return task[0](task[1])
 
 
 def _roots_over_friction(settings, task):

@@ -87,7 +87,7 @@ BENT = TRIANGLE + np.outer(np.arange(6) == 4, [0.1, 0.1, 0.0])
 @pytest.mark.exact
 @pytest.mark.parametrize(("count", "points"), [(None, 6), (1, 3), (2, 3), (3, 6), (4, 12)])
 def test_points_of_a_triangle_stand_for_positive_areas(count, points):
-    """Contacts stand at these points, and one of negative area would pull. Moments are exact to the order of the rule."""
+    """Contacts stand at these points, and one of negative area would pull; moments are exact to the order of a rule."""
     point, area = face_points(TRIANGLE, np.arange(6)[None], count)
     assert area.shape == (1, points) and area.min() > 0.0
     for order in range(2 * (count or 2) - 1):

@@ -57,7 +57,8 @@ def test_basis_is_mass_orthonormal_and_can_be_cut(rubbed_block):
     np.testing.assert_allclose(basis.shape.T @ rubbed_block.mass @ basis.shape, np.eye(basis.shape.shape[1]), atol=1e-9)
     cut = friction_basis(rubbed_block, 40e3, smallest=1e-2)
     assert 0 < cut.corrections < basis.corrections
-    np.testing.assert_allclose(cut.shape, basis.shape[:, :cut.shape.shape[1]], rtol=0, atol=1e-13 * abs(basis.shape).max())
+    np.testing.assert_allclose(cut.shape, basis.shape[:, :cut.shape.shape[1]], rtol=0,
+                               atol=1e-13 * abs(basis.shape).max())
 
 
 @pytest.mark.exact
