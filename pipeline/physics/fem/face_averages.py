@@ -23,9 +23,9 @@ _SLACK = 1e-6
 def face_points(node, face, count=None):
     """Gauss points (f, q, 3) [m] of the faces and the area (f, q) [m^2] that each stands for.
 
-    ``count``: points per direction of quadrilateral faces, exact to the order 2 ``count`` - 1, of triangles to one less,
-    as their rules of odd order have points that stand for a negative area; by default as many as the kind of face asks
-    for. Faces are of one kind, else ConfigError.
+    ``count``: points per direction of quadrilateral faces, exact to the order 2 ``count`` - 1, of triangles to one
+    less, as rules of odd order have points there that stand for a negative area; by default as many as the kind of face
+    asks for. Faces are of one kind, else ConfigError.
     """
     kind = face_kind(face)
     if kind == MIXED_FACES:
