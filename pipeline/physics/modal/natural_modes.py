@@ -27,20 +27,11 @@ def all_modes(stiffness, mass):
     """(squares (n,) of the angular frequencies, modes (n, n) of unit modal mass) of dense symmetric matrices, lowest
     first; ``mass`` positive definite, and not factorised where it is diagonal."""
     inertia = np.diag(mass)
-    if not _is_diagonal(mass) or not (inertia > 0).all():
+    if np.count_nonzero(mass) > len(mass) or not (inertia > 0).all():
         return scipy.linalg.eigh(stiffness, mass)
     scale = 1 / np.sqrt(inertia)
     square, modes = scipy.linalg.eigh(stiffness * scale * scale[:, None], driver="evd", overwrite_a=True)
     return square, modes * scale[:, None]
-
-
-def times_mass(mass, modes):
-    """``mass`` (n, n) @ ``modes`` (n, m), dense."""
-    return np.diag(mass)[:, None] * modes if _is_diagonal(mass) else mass @ modes
-
-
-def _is_diagonal(matrix):
-    return np.count_nonzero(matrix) == np.count_nonzero(np.diag(matrix))
 
 
 def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):

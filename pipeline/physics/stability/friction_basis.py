@@ -63,7 +63,7 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
 
 def _directions(response, smallest):
     """Left singular vectors of ``response`` (h, k) with singular values above ``smallest``, largest first."""
-    if response.shape[1] <= len(response):
+    if 2 * response.shape[1] <= len(response):
         direction, size, _ = np.linalg.svd(response, full_matrices=False)
     else:       # of many columns, in a third of the time
         square, direction = scipy.linalg.eigh(response @ response.T, driver="evd", overwrite_a=True)
