@@ -16,7 +16,7 @@ import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.friction_paths import over_friction
-from pipeline.case_models.full_matrices import has_full_matrices
+from pipeline.case_models.full_matrices import has_full_matrices, slid_on_elements
 from pipeline.case_models.operating_modes import balances, growing, in_full, path_fields_of, unstable_fields
 from pipeline.case_models.steady_sliding import (
     Posed,
@@ -64,7 +64,7 @@ class Settings(Section):
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion; under hard contacts"
                                                  " all do")
     smallest_correction: float = option(
-        1e-5, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
+        1e-4, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")
     friction_slopes: bool = option(True, "friction that changes with pressure and slip speed, at the operating points")
     friction_damping: bool = option(True, "friction that turns with the slip velocity damps sideways motion")
@@ -163,14 +163,14 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
-    operating points, each about its own steady sliding state, in a basis of the real modes below
-    {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
-    solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}), and then
-    in the full finite-element matrices, about the steady sliding of the elements themselves, where a brake has these
-    (largest residual: {residual_tolerance}). A closing speed of {damping_speed} doubles the contact pressure (contact
-    damping). A mode is unstable if its growth rate exceeds {neutral} times its angular frequency. Up to {followed}
-    unstable modes were followed in the reduced model from the friction of their operating point down to none, at its
-    contact forces, by the modal assurance criterion.
+    operating points, each about its own steady sliding state, for each pressure in a basis of the real modes below
+    {frequency_max} and their corrections for friction and what it changes in the contacts; at the operating points,
+    roots that grow or nearly do were then solved for in the whole reduced model, with loss factors as imaginary
+    stiffness (hysteretic: {hysteretic}), and then in the full finite-element matrices, about the steady sliding of the
+    elements themselves, where a brake has these (largest residual: {residual_tolerance}). A closing speed of
+    {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth rate exceeds
+    {neutral} times its angular frequency. Up to {followed} unstable modes were followed in the reduced model from the
+    friction of their operating point down to none, at its contact forces, by the modal assurance criterion.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)
@@ -178,15 +178,16 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     refuse_twice(models[0][0].bench, settings.friction_damping)
     states = context.map(partial(_state, settings), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
-    roots = _sweep(states, friction, settings, context)
-    law = sliding_friction(friction_map, model, settings)
-    points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = [Losses.of(at_state(model, k)) for k in range(len(models)) for _ in settings.speeds]
-    tasks = [(*point, lost) for point, lost in zip(points, losses, strict=True)]
+    law, number = sliding_friction(friction_map, model, settings), len(settings.speeds)
+    full = has_full_matrices(structure, models[0][0], settings, context)
+    slide = partial(slid_on_elements, partial(full_model, structure, context.solver), context.solver, law, settings)
+    roots, about = _sweep(states, friction, slide if full else None, settings, context)
+    points = [m.at_speed(speed) for m, _ in models for speed in settings.speeds]
+    losses = [Losses.of(at_state(model, k // number)) for k in range(len(points))]
+    tasks = [(case, states[k // number], lost) for k, (case, lost) in enumerate(zip(points, losses, strict=True))]
     outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
-    if has_full_matrices(structure, models[0][0], settings, context):
-        outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, law[1], model.contact_body,
-                           settings, context)
+    if full:
+        outcomes = in_full(about, points, outcomes, model.contact_body, settings, context)
     outcomes = [growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
@@ -213,33 +214,44 @@ def _told(terms, context):
 
 
 def _state(settings, task):
-    """The model about its state without friction, on a basis that serves all states of the sweep."""
+    """The model about its state without friction, on a basis that serves all states of the sweep and those of the
+    operating points: that of half the friction of the sweep, with what its ends change in the contacts."""
     case, input_force = task
-    response, seeking = case.response(settings.centrifugal), case.seeking
-    still = seeking.slide(response, input_force, constant(0.0), 0.0, settings)
-    about = still.about(case.bench.model)
-    basis = _basis(about, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
-    bare = replace(case.bench.model, contacts=about.contacts)
-    bare = bare if is_hard(about) else bare.projected(basis.shape)
+    response, seeking, model = case.response(settings.centrifugal), case.seeking, case.bench.model
+    still, middle, last = (seeking.slide(response, input_force, constant(mu), mu, settings)
+                           for mu in (0.0, settings.friction_max / 2, settings.friction_max))
+    basis = _basis(middle.about(model), settings, [end.contact.stiffness - middle.contact.stiffness
+                                                   for end in (still, last)])
+    bare = replace(model, contacts=still.about(model).contacts)
+    bare = bare if is_hard(bare) else bare.projected(basis.shape)
     return _State(bare, response, input_force, basis, still, seeking if case.moved else case.within(bare))
 
 
-def _basis(model, settings, contact_stiffness=0.0):
+def _basis(model, settings, changes):
     if is_hard(model):
         shape = allowed_motions(model)
         frequency = _frequencies(np.diag(hard_sliding(model, 0.0, shape, friction_damping=False).stiffness))
         return FrictionBasis(shape, frequency[frequency < settings.frequency_max], 0)
     return friction_basis(model, settings.frequency_max, settings.friction_damping, settings.smallest_correction,
-                          contact_stiffness, settings.centrifugal, branch_stiffness(model))
+                          changes, settings.centrifugal, branch_stiffness(model), adjoint=1.0)
 
 
-def _sweep(states, friction, settings, context):
-    """Roots (friction, n) of every state, followed over friction from the lowest without friction upwards."""
+def _sweep(states, friction, slide, settings, context):
+    """(Roots (friction, n) of every state, followed over friction from the lowest without friction upwards; the answer
+    of ``slide``, unless it is None, to all operating points, which takes as long as all that is done beside it)."""
     chunks = np.array_split(friction, -(-len(friction) // _CHUNK))
-    results = context.map(partial(_roots_over_friction, settings), [(s, c) for s in states for c in chunks],
-                          "friction sweep")
+    points = [(s.posed.at_speed(speed), s.response, s.input_force) for s in states for speed in settings.speeds]
+    beside = [] if slide is None else [(slide, points)]
+    results = context.map(_answer, [*beside, *((partial(_roots_over_friction, settings), (s, c))
+                                               for s in states for c in chunks)], "friction sweep")
+    about, results = results[:len(beside)], results[len(beside):]
     roots = [np.vstack(results[k:k + len(chunks)]) for k in range(0, len(results), len(chunks))]
-    return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots]
+    return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots], *(about or [None])
+
+
+def _answer(task):
+    """function(argument) of a ``task`` (function, argument)."""
+    return task[0](task[1])
 
 
 def _roots_over_friction(settings, task):
@@ -255,12 +267,13 @@ def _roots_over_friction(settings, task):
 
 
 def _operate(settings, law, task):
-    """Sliding state with friction of the law, and the modes about it on a basis of its own."""
-    case, input_force, losses = task
-    sliding = case.seeking.slide(case.response(settings.centrifugal), input_force, *law, settings)
+    """Sliding state with friction of the law, and the modes about it on the basis of its pressure."""
+    case, state, losses = task
+    sliding = case.seeking.slide(case.response(settings.centrifugal), state.input_force, *law, settings)
     model = sliding.about(case.bench.model)
-    basis = _basis(model, settings)
-    about = model if is_hard(model) else model.projected(basis.shape)
+    hard = is_hard(model)
+    basis = _basis(model, settings, 0.0) if hard else state.basis
+    about = model if hard else sliding.about(state.model.at_speed(model.speed))
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     root = quadratic_roots(*matrices, beside)
     near = np.flatnonzero(nearly(root, settings) & (root.imag >= 0))

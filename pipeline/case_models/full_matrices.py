@@ -64,19 +64,28 @@ def lacking_terms(structure, posed, settings):
     return [reason for reason, holds in reasons.items() if holds]
 
 
-def full_modes(full_model, models, slide, modes, describe, settings, context):
+def slid_on_elements(full_model, solver, law, settings, states):
+    """[(sparse SlidingModel of the finite elements, their Steady)] of ``states``, each (Posed, ClosureResponse, input
+    force (i,) N) of the reduced model.
+
+    ``full_model()``: that model in any state; ``law``, ``settings``: as of ``Posed.slide``.
+    """
+    full, solve = full_model(), Solutions(solver)
+    return [case.slide_on_elements(full, case.slide(response, load, *law, settings), load, law[1], settings, solve)
+            for case, response, load in states]
+
+
+def full_modes(about, models, modes, describe, settings, context):
     """A FullMode for each Mode that oscillates, None for others.
 
-    ``full_model()``: the sparse SlidingModel of the finite elements, called where there is such a mode; ``models``:
-    the reduced SlidingModel about steady sliding at each operating point; ``slide(operating, full, solve)``: the
-    SlidingModel and the Steady there on the elements ``full`` themselves, by Solutions ``solve`` that all share;
-    ``describe(model, sliding, roots, vectors)``: (terms, contacts, shares) of each root, as ``balances``.
+    ``about``: the sparse SlidingModel of the finite elements and its Steady at each operating point, ``models``: the
+    reduced SlidingModel about steady sliding there; ``describe(model, sliding, roots, vectors)``: (terms, contacts,
+    shares) of each root, as ``balances``.
     """
     solved = [None] * len(modes)
     oscillating = np.array([k for k, mode in enumerate(modes) if mode.root.imag > 0], int)
     if not len(oscillating):
         return solved
-    about = _slid(slide, full_model(), {modes[k].operating for k in oscillating}, context)
     groups = families(*(np.array([getattr(modes[k], name) for k in oscillating]) for name in ("root", "state")))
     tasks = [[(*about[m.operating], m.root,
                np.concatenate([rows @ m.motion for rows in _rows(models[m.operating])]))
@@ -87,12 +96,6 @@ def full_modes(full_model, models, slide, modes, describe, settings, context):
             solved[k] = mode
     _refuse_same(modes, solved)
     return solved
-
-
-def _slid(slide, full, operating, context):
-    """{number: (SlidingModel, Steady)} of the ``operating`` points on the finite elements ``full``."""
-    solve = Solutions(context.solver)
-    return {number: slide(number, full, solve) for number in sorted(operating)}
 
 
 def _rows(model):

@@ -46,23 +46,16 @@ def growing(outcome, settings):
                    **{name: getattr(outcome, name)[grows] for name in _OF_MODES})
 
 
-def in_full(full_model, points, outcomes, plain, contact_body, settings, context):
+def in_full(about, points, outcomes, contact_body, settings, context):
     """The outcomes with roots that grow or nearly do, and what feeds them, on the full finite-element matrices, about
     the steady sliding of these.
 
-    ``full_model()``: see ``full_modes``; ``points``: (Posed, input force) of each outcome; ``plain``: as of
-    ``Posed.slide``; ``contact_body`` (c,).
+    ``about``: see ``full_modes``; ``points``: Posed of each outcome; ``contact_body`` (c,).
     """
     modes = [Mode(number, number // len(settings.speeds), root, motion) for number, o in enumerate(outcomes)
              for root, motion in zip(o.near, o.motion.T, strict=True)]
-    models = [o.sliding.about(p[0].bench.model) for p, o in zip(points, outcomes, strict=True)]
-
-    def slide(number, full, solve):
-        (case, load), begin = points[number], outcomes[number].sliding
-        return case.slide_on_elements(full, begin, load, plain, settings, solve)
-
-    solved = full_modes(full_model, models, slide, modes,
-                        partial(_full_balances, contact_body, settings), settings, context)
+    models = [o.sliding.about(case.bench.model) for case, o in zip(points, outcomes, strict=True)]
+    solved = full_modes(about, models, modes, partial(_full_balances, contact_body, settings), settings, context)
     return [_replaced(o, [s for s, m in zip(solved, modes, strict=True) if m.operating == number])
             for number, o in enumerate(outcomes)]
 

@@ -65,10 +65,9 @@ def masses():
                         none[:0], (), none[:0], 1.0)
 
 
-def sliding_as_in(reduced):
+def sliding_as_in(full, reduced):
     """The elements slide in the state of the reduced model."""
-    return lambda number, full, solve: (sliding_as(full, reduced), SimpleNamespace(
-        acting=lambda slopes: FrictionState(0.3)))
+    return sliding_as(full, reduced), SimpleNamespace(acting=lambda slopes: FrictionState(0.3))
 
 
 @pytest.mark.exact
@@ -79,17 +78,17 @@ def test_modes_are_those_of_the_full_model_in_the_state_of_the_reduced_one():
     seen = replace(full.contacts, normal=np.eye(3)[:, :2], tangent=none, lateral=none, stiffness=np.full(3, CONTACT),
                    damping=np.full(3, 2.0))
     reduced = replace(full, contacts=seen)
-    slide = sliding_as_in(reduced)
+    about = [sliding_as_in(full, reduced)]
     exact = [np.roots([m, 2.0, STIFFNESS + CONTACT])[0] for m in MASS]
     modes = [Mode(0, 0, complex(exact[0] * 1.001), np.array([1.0, 0.01])), Mode(0, 0, 5.0, np.array([1.0, 0.0])),
              Mode(0, 0, complex(exact[1] * 0.999), np.array([0.01, 1.0]))]
-    found = full_modes(lambda: full, [reduced], slide, modes, _described, SETTINGS, Context())
+    found = full_modes(about, [reduced], modes, _described, SETTINGS, Context())
     assert found[1] is None
     for mode, root in ((found[0], exact[0]), (found[2], exact[1])):
         assert mode.root == pytest.approx(root, rel=1e-9) and mode.residual <= 1e-8
     assert found[0].terms == {"drag": pytest.approx(2.0)} and found[2].shares.argmax() == 1
     assert found[0].contacts.tolist() == [1.0, 1.0, 1.0]
-    assert full_modes(None, [reduced], None, modes[1:2], _described, SETTINGS, Context()) == [None]
+    assert full_modes(None, [reduced], modes[1:2], _described, SETTINGS, Context()) == [None]
 
 
 @pytest.mark.exact
@@ -97,9 +96,9 @@ def test_two_modes_that_lead_to_one_root_are_refused():
     full = masses()
     reduced = replace(full, contacts=replace(full.contacts, stiffness=np.full(3, CONTACT)))
     mode = Mode(0, 0, complex(np.roots([MASS[0], 0.0, STIFFNESS + CONTACT])[0] * 1.001), np.array([1.0, 0.0, 0.0]))
-    slide = sliding_as_in(reduced)
+    about = [sliding_as_in(full, reduced)]
     with pytest.raises(ConvergenceError, match="one near .* for two of them"):
-        full_modes(lambda: full, [reduced], slide, [mode, mode], _described, SETTINGS, Context())
+        full_modes(about, [reduced], [mode, mode], _described, SETTINGS, Context())
 
 
 def _described(model, sliding, roots, vectors):

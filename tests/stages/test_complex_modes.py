@@ -138,6 +138,22 @@ def test_sweep_meets_the_operating_points(model):
 
 
 @pytest.mark.exact
+def test_the_sweep_ends_in_all_roots_of_the_reduced_model_where_friction_has_moved_the_contacts(model):
+    """Contacts that stiffen with their closure, of a few coarse corrections."""
+    curved = changed(model, law_closure=np.linspace(0, model.law_closure[-1], 40),
+                     law_pressure=model.law_pressure[-1] * np.linspace(0, 1, 40)**2)
+    modes = complex_modes(curved, small_friction_map(), settings=Settings(
+        **SETTINGS | {"friction_steps": 2, "friction_damping": False, "speeds": ("10 rad/s",)}, friction_max=1.1,
+        smallest_correction=3e-3, followed=0))
+    for state, found in enumerate(modes.root[:, -1]):
+        about, _ = sliding(curved, state, 10.0, 1.1)
+        root = quadratic_roots(*about.linearised(1.1, friction_damping=False))
+        growing = root[(root.real > 1.0) & (root.imag > 0) & (abs(root) < 2 * np.pi * 8e3)]
+        assert len(growing) >= 4 and abs(growing[:, None] - found).min(axis=1).max() < 0.5
+        assert np.sum((found.real > 1.0) & (abs(found) < 2 * np.pi * 8e3)) == len(growing)
+
+
+@pytest.mark.exact
 def test_friction_moves_the_load_and_with_it_the_roots(model):
     """Linear contacts that stay closed keep their stiffness: only damping N / damping_speed shows the moved load."""
     state, force = sliding(model, 0, 8.0, 0.5)

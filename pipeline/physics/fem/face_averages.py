@@ -23,18 +23,14 @@ _SLACK = 1e-6
 def face_points(node, face, count=None):
     """Gauss points (f, q, 3) [m] of the faces and the area (f, q) [m^2] that each stands for.
 
-    ``count``: points per direction of quadrilateral faces; by default as many as the kind of face asks for. No area is
-    negative: of triangles, whose rule of order 3 has such, the next takes its place. Faces are of one kind, else
-    ConfigError.
+    ``count``: points per direction of quadrilateral faces, exact to the order 2 ``count`` - 1, of triangles to one
+    less, as rules of odd order have points there that stand for a negative area; by default as many as the kind of face
+    asks for. Faces are of one kind, else ConfigError.
     """
     kind = face_kind(face)
     if kind == MIXED_FACES:
         raise ConfigError("surface", "faces of one kind", "triangles and quadrilaterals")
-    order = count and 2 * count - 1
-    point, weight = quadrature(kind, order)
-    while weight.min() <= 0.0:
-        order += 1
-        point, weight = quadrature(kind, order)
+    point, weight = quadrature(kind, count and (max(2 * count - 2, 1) if kind == "triangle6" else 2 * count - 1))
     shape, gradient = shape_functions(kind, point)
     tangent = np.einsum("fvx,qvr->fqrx", node[face], gradient)
     area = np.linalg.norm(np.cross(tangent[..., 0, :], tangent[..., 1, :]), axis=-1)

@@ -153,15 +153,17 @@ class SlidingModel:
                    *(self._spread(rows, drag, rows) for rows, drag in drags)]
         return _total(damping), self._spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal)
 
-    def friction_products(self, friction, motion, friction_damping=True):
-        """(C_f, K_f) times ``motion`` (n, m) of a dense model; arguments as of ``friction_matrices``."""
+    def friction_products(self, friction, motion, friction_damping=True, adjoint=False):
+        """(C_f, K_f), or their transposes for ``adjoint``, times ``motion`` (n, m) of a dense model; arguments as of
+        ``friction_matrices``."""
         contacts, (coupling, *drags) = self.contacts, self._friction(friction, friction_damping)
-        pulled = coupling[:, None] * (contacts.normal @ motion)
-        damping = contacts.tangent.T @ (contacts.damping[:, None] * pulled)
+        onto, of = (contacts.normal, contacts.tangent) if adjoint else (contacts.tangent, contacts.normal)
+        pulled = coupling[:, None] * (of @ motion)
+        damping = onto.T @ (contacts.damping[:, None] * pulled)
         for rows, drag in drags:
             if np.any(drag):
                 damping = damping + rows.T @ (np.reshape(drag, (-1, 1)) * (rows @ motion))
-        return damping, contacts.tangent.T @ (contacts.stiffness[:, None] * pulled)
+        return damping, onto.T @ (contacts.stiffness[:, None] * pulled)
 
     def linearised(self, friction, friction_damping=True, gyroscopic=True, centrifugal=True):
         """(M, C, K) about steady sliding with friction; terms as in the methods above, and all at once.

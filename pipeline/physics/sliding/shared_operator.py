@@ -43,8 +43,8 @@ class SlidingPoint:
 
 @dataclass(frozen=True)
 class SharedOperator:
-    """``terms``: each a sparse matrix (n, n) of complex numbers, the powers of s and W that it stands with, and whether
-    it is real; all are symmetric but the gyroscopic one, which is skew. ``rows`` B (3c, n)."""
+    """``terms``: each a sparse matrix (n, n), real or complex, and the powers of s and W that it stands with; all are
+    symmetric but the gyroscopic one, which is real and skew. ``rows`` B (3c, n)."""
 
     terms: tuple
     rows: "scipy.sparse.csr_matrix"
@@ -58,8 +58,7 @@ class SharedOperator:
         terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
         terms += [(model.centrifugal, 0, 2)] if centrifugal else []
         contacts = model.contacts
-        return cls(tuple((matrix.astype(complex, copy=False), order, power, not np.iscomplexobj(matrix))
-                         for matrix, order, power in terms if matrix.count_nonzero()),
+        return cls(tuple(term for term in terms if term[0].count_nonzero()),
                    scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral), format="csr"))
 
     def symmetric(self, point, root):
@@ -68,7 +67,7 @@ class SharedOperator:
         contact = (point.by_place + root * point.by_speed).diagonal()
         whole = (self.rows.T @ (scipy.sparse.diags(contact) @ self.rows)).tocsr()
         whole.sort_indices()        # sums of sorted rows are quick
-        for matrix, order, power, _ in sorted(self.terms, key=lambda term: term[0].nnz):
+        for matrix, order, power in sorted(self.terms, key=lambda term: term[0].nnz):
             if not power:
                 whole = whole + (root**order * matrix if order else matrix)
         return whole
@@ -80,12 +79,12 @@ class SharedOperator:
 
     def products(self, vectors):
         """[A x (n, g) of every term and x of ``vectors`` (n, g)]."""
-        return [matrix @ vectors for matrix, *_ in self.terms]
+        return [_times(matrix, vectors) for matrix, *_ in self.terms]
 
     def forces(self, points, roots, vectors):
         """(T(s) x, K x), each (n, g) N, of motions x (n, g) at SlidingPoints and ``roots`` s (g,)."""
         whole, elastic = np.zeros_like(vectors), np.zeros_like(vectors)
-        for (_, order, power, _), image in zip(self.terms, self.products(vectors), strict=True):
+        for (_, order, power), image in zip(self.terms, self.products(vectors), strict=True):
             image = image * [point.speed**power for point in points]
             elastic += 0.0 if order else image
             whole += roots**order * image
@@ -119,10 +118,10 @@ class Subspace:
         m, new = self._count, self._beside(np.asarray(vectors, complex))
         part, self._count = slice(m, m + new.shape[1]), m + new.shape[1]
         self._vectors[:, part], self._moved[:, part] = new, self._operator.rows @ new
-        whole = self._vectors[:, :self._count].conj().T
+        whole = self._vectors[:, :self._count]
         for term, small, image in zip(self._operator.terms, self._small, self._operator.products(new), strict=True):
-            small[:self._count, part] = whole @ image
-            small[part, :m] = (whole[:m] @ _adjoint(term, new, image)).conj().T
+            small[:self._count, part] = _within(whole, image)
+            small[part, :m] = _within(whole[:, :m], _adjoint(term, new, image)).conj().T
 
     def _beside(self, vectors):
         """Orthonormal (n, h) for what is not rounding of the ``vectors``."""
@@ -130,14 +129,14 @@ class Subspace:
         for _ in range(2):
             size = np.linalg.norm(vectors, axis=0)
             vectors = vectors[:, size > _ROUNDING] / size[size > _ROUNDING]
-            vectors = vectors - before @ (before.conj().T @ vectors)
+            vectors = vectors - before @ _within(before, vectors)
         direction, size, _ = np.linalg.svd(vectors, full_matrices=False)
         return direction[:, size > _ROUNDING]
 
     def matrices(self, point):
         """(M, C, K), each (m, m), at a SlidingPoint, projected on the vectors."""
         m, moved, parts = self._count, self._moved[:, :self._count], [0.0, 0.0, 0.0]
-        for (_, order, power, _), small in zip(self._operator.terms, self._small, strict=True):
+        for (_, order, power), small in zip(self._operator.terms, self._small, strict=True):
             parts[order] = parts[order] + point.speed**power * small[:m, :m]
         by_place, by_speed = (moved.conj().T @ (each @ moved) for each in (point.by_place, point.by_speed))
         return parts[2], parts[1] + by_speed, parts[0] + by_place
@@ -151,9 +150,21 @@ class Subspace:
         return self._vectors[:, :self._count] @ weight
 
 
+def _times(matrix, vectors):
+    """A x (n, g) of a sparse A; where it is real, with the real numbers that complex x (n, g) are made of."""
+    if np.iscomplexobj(matrix):
+        return matrix @ vectors
+    return (matrix @ np.ascontiguousarray(vectors).view(float)).view(complex)
+
+
+def _within(whole, vectors):
+    """V^H x (m, g): the few ``vectors`` x (n, g) are made conjugate, not ``whole`` V (n, m)."""
+    return (vectors.conj().T @ whole).conj().T
+
+
 def _adjoint(term, vectors, image):
     """A^H x (n, g) of a term of A and x, from the ``image`` A x where A is real."""
-    matrix, *powers, real = term
-    if not real:
+    matrix, *powers = term
+    if np.iscomplexobj(matrix):
         return (matrix @ vectors.conj()).conj()
     return -image if tuple(powers) == _GYROSCOPIC else image

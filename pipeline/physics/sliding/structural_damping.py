@@ -23,9 +23,11 @@ def equivalent_damping(loss, stiffness, mass):
     ``stiffness`` (n, n) N/m and ``mass`` (n, n) kg: whose real modes these are, with that of closed contacts. Rigid
     motions, which strain nothing, are not damped.
     """
-    weighted, inertia = _weighted_modes(stiffness, mass)
-    small = weighted.T @ loss @ weighted
-    return inertia @ ((small + small.T) / 2) @ inertia.T
+    modes, root = _moving_modes(stiffness, mass)
+    halves = modes / np.sqrt(root)
+    motion = (halves @ halves.T) @ mass if np.count_nonzero(mass) > len(mass) else halves @ halves.T * np.diag(mass)
+    damping = motion.T @ (loss @ motion)
+    return (damping + damping.T) / 2
 
 
 def equivalent_motion(shape, stiffness, mass):
@@ -33,14 +35,13 @@ def equivalent_motion(shape, stiffness, mass):
 
     The equivalent damping is linear in the loss, so z tells what each part of it dissipates.
     """
-    weighted, inertia = _weighted_modes(stiffness, mass)
-    return weighted @ (inertia.T @ shape)
+    modes, root = _moving_modes(stiffness, mass)
+    return (modes / root) @ (modes.T @ (mass @ shape))
 
 
-def _weighted_modes(stiffness, mass):
-    """(modes over the root of their angular frequency, mass times modes), each (n, m), without rigid motions."""
+def _moving_modes(stiffness, mass):
+    """(modes (n, m), roots (m,) of their angular frequencies) without rigid motions."""
     square, modes = all_modes(stiffness, mass)
     angular = np.sqrt(np.maximum(square, 0.0))
     moving = angular > _RIGID * angular[-1]
-    modes, root = modes[:, moving], np.sqrt(angular[moving])
-    return modes / root, mass @ modes
+    return modes[:, moving], np.sqrt(angular[moving])

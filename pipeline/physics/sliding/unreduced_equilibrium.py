@@ -27,6 +27,8 @@ from pipeline.physics.sliding.model import SlidingModel
 BALANCED = 1e-9
 #: steps at most, and halvings of each
 _STEPS, _HALVINGS = 40, 8
+#: forces out of balance, over those of the contacts, up to which the last state is where the next begins
+_NEAR = 0.1
 #: residual of the linear solution of a step, iterations for it with one factor before it is made anew
 _LINEAR, _ITERATIONS = 1e-4, 40
 
@@ -40,13 +42,16 @@ def sliding_on_elements(model: SlidingModel, input_force: np.ndarray, law: tuple
     ``solve``: Solutions, whose factor states of the same model at other loads and speeds may share. Raises
     ConvergenceError where the forces do not balance.
     """
-    sought = _Equilibrium(model, input_force @ model.input_rows, law, friction, centrifugal)
-    motion = solve(*sought.linear(closure))
-    missing, size = sought.missing(motion)
+    sought, motion = _Equilibrium(model, input_force @ model.input_rows, law, friction, centrifugal), solve.last
+    missing, size = (np.inf, 1.0) if motion is None else sought.missing(motion)
+    if not missing <= _NEAR * size:
+        motion = solve(*sought.linear(closure))
+        missing, size = sought.missing(motion)
     for _ in range(_STEPS):
         if missing <= BALANCED * size:
+            solve.last = motion
             return sought.state(sought.closure(motion))
-        step = solve(sought.stiffness(motion), sought.out_of_balance(motion))
+        step = solve(sought.stiffness(motion), sought.out_of_balance(motion), BALANCED * size / missing)
         for length in 0.5 ** np.arange(_HALVINGS):
             trial = sought.missing(motion - length * step)[0]
             if trial < missing:
@@ -58,31 +63,53 @@ def sliding_on_elements(model: SlidingModel, input_force: np.ndarray, law: tuple
 
 
 class Solutions:
-    """Solutions of linear equations by GMRES with the factor of a matrix before, or of the last where that is slow."""
+    """Solutions of linear equations by GMRES with the factor of a matrix before, or of the last where that is slow;
+    ``last``: the motion (n,) of the last state that was found with them, or None."""
 
     def __init__(self, solver):
-        self._solver, self._factor = solver, None
+        self._solver, self._factor, self.last = solver, None, None
 
-    def __call__(self, matrix, rhs):
+    def __call__(self, matrix, rhs, enough=0.0):
+        """x (n,) of A x = b, off by no more than a share of b, which need not be less than half of ``enough``."""
+        accuracy = max(_LINEAR, enough / 2)
         if self._factor is not None:
-            answer, failed = self._iterated(matrix, rhs)
+            answer, failed = self._iterated(matrix, rhs, accuracy)
             if not failed:
                 return answer
-        self._make(matrix)
-        return self._iterated(matrix, rhs)[0]
+        self._make(matrix.assembled())
+        return self._iterated(matrix, rhs, accuracy)[0]
 
     def _make(self, matrix):
         self._factor = None         # its memory goes before that of the next
         self._factor = factorise(matrix, self._solver, symmetric=False)
 
-    def _iterated(self, matrix, rhs):
+    def _iterated(self, matrix, rhs, accuracy):
         """(x, 0 or what failed): x = F^-1 y with A F^-1 y = b, so that forces, not motions, are what is left."""
         forces = scipy.sparse.linalg.LinearOperator(matrix.shape, lambda b: matrix @ self._solved(b), dtype=float)
-        answer, failed = scipy.sparse.linalg.gmres(forces, rhs, rtol=_LINEAR, restart=_ITERATIONS, maxiter=2)
+        answer, failed = scipy.sparse.linalg.gmres(forces, rhs, rtol=accuracy, restart=_ITERATIONS, maxiter=2)
         return self._solved(answer), failed
 
     def _solved(self, rhs):
         return self._factor.solve(np.ravel(rhs))
+
+
+@dataclass(frozen=True)
+class _Stiffness:
+    """K + A N, sparse, of ``bodies`` K (n, n) and contacts: ``acting`` A (n, c) at closures by ``normal`` N (c, n)."""
+
+    bodies: "scipy.sparse.csr_matrix"
+    acting: "scipy.sparse.csr_matrix"
+    normal: "scipy.sparse.csr_matrix"
+
+    @property
+    def shape(self):
+        return self.bodies.shape
+
+    def __matmul__(self, motion):
+        return self.bodies @ motion + self.acting @ (self.normal @ motion)
+
+    def assembled(self):
+        return self.bodies + self.acting @ self.normal
 
 
 @dataclass(frozen=True)
@@ -114,7 +141,7 @@ class _Equilibrium:
     def _about(self, state):
         about = model_about(self.model, state.contact)
         acting = about.contacts.normal.T + about.contacts.tangent.T @ scipy.sparse.diags(about.coupling(state.friction))
-        return self.bodies + acting @ scipy.sparse.diags(state.contact.stiffness) @ about.contacts.normal
+        return _Stiffness(self.bodies, acting @ scipy.sparse.diags(state.contact.stiffness), about.contacts.normal)
 
     def out_of_balance(self, motion):
         """(n,) N: left less right side of (1)."""

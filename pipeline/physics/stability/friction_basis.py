@@ -13,6 +13,7 @@ are orthonormalised in the mass; their singular values are amplitudes per unit o
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.natural_modes import all_modes
@@ -33,10 +34,11 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
 
     The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
     amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Where the
-    basis shall serve states whose contacts are stiffer or softer, corrections for a change by ``contact_stiffness``
-    (() or (c,) N/m) join them, and where ``others`` (n, n) or (b, n, n) N/m act, as Maxwell branches do at once, those
-    for each of them. With ``adjoint``, the FrictionState of the system, left vectors and gyroscopic
-    terms are served as well. Raises ConfigError where no mode lies below the frequency.
+    basis shall serve states whose contacts are stiffer or softer, corrections for changes by ``contact_stiffness``
+    ((), (c,) or, for several, (b, c) N/m) join them, and where ``others`` (n, n) or (b, n, n) N/m act, as Maxwell
+    branches do at once, those for each of them. With ``adjoint``, the FrictionState of the system or a coefficient,
+    left vectors and gyroscopic terms are served as well: roots are off by what the basis lacks of right vectors times
+    what it lacks of left ones. Raises ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
     square, modes = all_modes(stiffness, mass)
@@ -47,14 +49,23 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     real, high = modes[:, low], modes[:, ~low]
     pace, rows = 2 * np.pi * frequency[low], model.contacts.normal
     drag, follower = model.friction_products(1.0, real, friction_damping)
-    changed = np.broadcast_to(contact_stiffness, len(rows))
-    force = [follower, *([rows.T @ (changed[:, None] * (rows @ real))] if changed.any() else []),
+    changes = np.atleast_2d(np.broadcast_to(contact_stiffness, (*np.shape(contact_stiffness)[:-1], len(rows))))
+    force = [follower, *(rows.T @ (changed[:, None] * (rows @ real)) for changed in changes if changed.any()),
              (damping @ real + drag) * pace]
     force += [] if others is None else [other @ real for other in np.reshape(others, (-1, *mass.shape))]
     if adjoint is not None:
-        drag, follower = model.friction_matrices(adjoint, friction_damping)
-        force += [follower.T @ real, drag.T @ real * pace, model.speed * model.gyroscopic @ real * pace]
+        drag, follower = model.friction_products(adjoint, real, friction_damping, adjoint=True)
+        force += [follower, drag * pace, model.speed * model.gyroscopic @ real * pace]
     response = (high.T @ np.hstack(force)) / (square[~low, None] - np.tile(square[low], len(force)))
-    direction, size, _ = np.linalg.svd(response, full_matrices=False)
-    corrections = high @ direction[:, size > smallest]
+    corrections = high @ _directions(response, smallest)
     return FrictionBasis(np.hstack((real, corrections)), frequency[low], corrections.shape[1])
+
+
+def _directions(response, smallest):
+    """Left singular vectors of ``response`` (h, k) with singular values above ``smallest``, largest first."""
+    if 2 * response.shape[1] <= len(response):
+        direction, size, _ = np.linalg.svd(response, full_matrices=False)
+    else:       # of many columns, in a third of the time
+        square, direction = scipy.linalg.eigh(response @ response.T, driver="evd", overwrite_a=True)
+        size, direction = np.sqrt(np.maximum(square, 0.0))[::-1], np.asfortranarray(direction[:, ::-1])
+    return direction[:, size > smallest]

@@ -21,8 +21,9 @@ from pipeline.physics.modal.nearest_modes import modes_near
 
 #: roots near the last one among which the next is sought
 _NEAREST = 12
-#: shares of friction from step to step, and the shortest step as a part of it
-_STEP, _SHORTEST = 1 / 40, 2.0**-10
+#: shares of friction from step to step, the shortest step as a part of it, and the longest, where the mode hardly
+#: changes: its MAC with the last one from which on a step may be longer than the last, and one that is longer is taken
+_STEP, _SHORTEST, _LONGEST, _STAYS, _TAKEN = 1 / 40, 2.0**-10, 4.0, 0.98, 0.9
 #: a MAC below is ambiguous; so is a second candidate within the margin, unless the best lies far closer to 1
 _LIKE, _MARGIN, _FAR = 0.6, 0.1, 0.25
 #: shift of the target beside the root, and accepted distance of the first root from the named one, as shares of it
@@ -134,12 +135,13 @@ def _followed(system, point, index):
         share = max(last.share - step, 0.0)
         trial = _Point.near(system, share, last.root[member])
         mac = trial.mac(last.vector[:, member])
-        if step > _STEP * _SHORTEST and _ambiguous(mac):
+        likest = mac.max(initial=0.0)
+        if step > _STEP * _SHORTEST and _ambiguous(mac) or step > _STEP and likest < _TAKEN:
             step /= 2
             continue
         points.append(trial)
         chosen.append(_best(mac, trial.root, _expected(points, chosen)))
-        step = min(2 * step, _STEP)
+        step = min(2 * step, _STEP * (_LONGEST if likest > _STAYS else 1))
     return points[::-1], chosen[::-1]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.case_models.full_matrices import Mode, full_modes
+from pipeline.case_models.full_matrices import Mode, full_modes, slid_on_elements
 from pipeline.case_models.refinement.element_modes import OperatingPoint, brake_of, element_modes, families
 from pipeline.case_models.refinement.finer_settings import finer
 from pipeline.case_models.refinement.reduced_starts import Starts
@@ -83,13 +83,8 @@ def test_full_roots_of_complex_modes_are_those_that_convergence_finds_on_the_sam
     model = begin.about(bench.model)
     root, shape = modes_near(*model.linearised(begin.friction), 2j * np.pi * 1500, 1)
     modes = [Mode(0, 0, each, vector) for each, vector in zip(root, shape.T, strict=True)]
-    steady = []
-
-    def slide(_, elements, solve):
-        steady.append(case.slide_on_elements(elements, begin, load, friction, LINEAR, solve))
-        return steady[0]
-
-    made = full_modes(lambda: full, [model], slide, modes, lambda about, sliding, roots, _: [(
+    (about, steady), = slid_on_elements(lambda: full, SOLVER, plain, LINEAR, [(case, case.response(True), load)])
+    made = full_modes([(about, steady)], [model], modes, lambda about, sliding, roots, _: [(
         [about.contacts.preload], [sliding.contact.stiffness], [None])][0], LINEAR, Context(solver=SOLVER))
     motion = np.array([rows @ shape for rows in (model.contacts.normal, model.contacts.tangent,
                                                  model.contacts.lateral)])
@@ -99,7 +94,7 @@ def test_full_roots_of_complex_modes_are_those_that_convergence_finds_on_the_sam
                     friction)
     found = element_modes(SECTION, POINT, starts, matrices, 1e-9).root
     np.testing.assert_allclose([made[k].root for k in order], found, rtol=1e-8)
-    other = steady[0][1].contact
+    other = steady.contact
     assert abs(begin.contact.force / other.force - 1).max() > 0.01
     assert all(np.array_equal(mode.terms, other.force) and np.array_equal(mode.contacts, other.stiffness)
                for mode in made)

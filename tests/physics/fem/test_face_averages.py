@@ -79,11 +79,29 @@ def test_a_wide_face_beside_many_narrow_ones_is_found():
     np.testing.assert_allclose(rows @ mesh.node, point, atol=1e-12)
 
 
-@pytest.mark.parametrize("count", [None, 1, 2, 3, 4])
-def test_no_point_of_a_triangle_stands_for_a_negative_area(count):
-    """Contacts stand at these points, and a contact of negative area would pull; moments of order 2 n - 1 are exact."""
-    node = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0], [0.5, 0.5, 0], [0, 0.5, 0]])
-    point, area = face_points(node, np.arange(6)[None], count)
-    order = 2 * (count or 1) - 1
-    assert area.min() > 0.0
-    assert (area * point[..., 0] ** order).sum() == pytest.approx(1 / ((order + 1) * (order + 2)))
+#: a plane triangle of six nodes, and one whose long side is bent
+TRIANGLE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0], [0.5, 0.5, 0], [0, 0.5, 0]])
+BENT = TRIANGLE + np.outer(np.arange(6) == 4, [0.1, 0.1, 0.0])
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize(("count", "points"), [(None, 6), (1, 3), (2, 3), (3, 6), (4, 12)])
+def test_points_of_a_triangle_stand_for_positive_areas(count, points):
+    """Contacts stand at these points, and one of negative area would pull; moments are exact to the order of a rule."""
+    point, area = face_points(TRIANGLE, np.arange(6)[None], count)
+    assert area.shape == (1, points) and area.min() > 0.0
+    for order in range(2 * (count or 2) - 1):
+        assert (area * point[..., 0]**order).sum() == pytest.approx(1 / ((order + 1) * (order + 2)))
+
+
+@pytest.mark.exact
+def test_three_points_of_a_triangle_carry_what_a_linear_pressure_does():
+    """On a bent side too its area; on straight ones force and moment, and those of a constant one to the middles."""
+    bent = face_points(BENT, np.arange(6)[None], 2)[1].sum()
+    assert bent == pytest.approx(0.5 + 2 / 3 * np.sqrt(2) * np.hypot(0.1, 0.1))     # two thirds of chord times height
+    point, area = (each[0] for each in face_points(TRIANGLE, np.arange(6)[None], 2))
+    rows = surface_rows(TRIANGLE, np.arange(6)[None], point, np.ones(3), np.arange(3))
+    np.testing.assert_allclose(rows.T @ area, [0, 0, 0, 1 / 6, 1 / 6, 1 / 6], atol=1e-14)
+    force = area * (2.0 + 3.0 * point[:, 0] - point[:, 1])
+    assert force.sum() == pytest.approx(2 / 2 + 3 / 6 - 1 / 6)
+    np.testing.assert_allclose((rows.T @ force) @ TRIANGLE[:, :2], [2 / 6 + 3 / 12 - 1 / 24, 2 / 6 + 3 / 24 - 1 / 12])

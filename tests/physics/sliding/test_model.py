@@ -215,9 +215,11 @@ def test_matrices_by_body_are_the_sums_over_all_rows(by_body):
 def test_products_with_friction_matrices(friction_damping):
     model, friction = scattered(), FrictionState(0.4, 1e-3, -0.02)
     motion = np.random.default_rng(2).normal(size=(12, 3))
-    found = model.friction_products(friction, motion, friction_damping)
-    for product, matrix in zip(found, model.friction_matrices(friction, friction_damping), strict=True):
-        np.testing.assert_allclose(product, matrix @ motion, rtol=0, atol=1e-13 * abs(matrix).max())
+    for adjoint in (False, True):
+        found = model.friction_products(friction, motion, friction_damping, adjoint)
+        for product, matrix in zip(found, model.friction_matrices(friction, friction_damping), strict=True):
+            expected = (matrix.T if adjoint else matrix) @ motion
+            np.testing.assert_allclose(product, expected, rtol=0, atol=1e-13 * abs(matrix).max())
 
 
 @pytest.mark.parametrize("complex_", [False, True])

@@ -11,7 +11,7 @@ from pipeline.contract import ConvergenceError
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.sliding.equilibrium import closure_response, from_map, steady_sliding
 from pipeline.physics.sliding.model import sliding_model
-from pipeline.physics.sliding.unreduced_equilibrium import Solutions, sliding_on_elements
+from pipeline.physics.sliding.unreduced_equilibrium import Solutions, _Equilibrium, sliding_on_elements
 from tests.stages.small_brake import small_brake, small_map
 
 BRAKE = small_brake()
@@ -48,6 +48,21 @@ def test_one_factor_serves_states_at_other_loads(monkeypatch):
     forces = [sliding_on_elements(model, load * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][9]),
                                   shared).contact.force.sum() for load in (2e6, 3e6)]
     assert len(made) == 1 and forces[1] == pytest.approx(1.5 * forces[0], rel=0.05)
+
+
+@pytest.mark.exact
+def test_a_state_begins_where_the_last_one_was(monkeypatch):
+    """At nearly the same load, and then needs no step in which all of the load is found."""
+    model, shared, begun = sparse(sliding_model(BRAKE, 1, 10.0)), Solutions("superlu"), []
+    monkeypatch.setattr(_Equilibrium, "linear", lambda self, closure, linear=_Equilibrium.linear:
+                        begun.append(closure) or linear(self, closure))
+    first, near = (sliding_on_elements(model, load * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][9]), shared)
+                   for load in (3e6, 3.03e6))
+    assert len(begun) == 1
+    alone = sliding_on_elements(model, 3.03e6 * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][9]),
+                                Solutions("superlu"))
+    np.testing.assert_allclose(near.contact.force, alone.contact.force, rtol=1e-7)
+    assert near.contact.force.sum() > first.contact.force.sum()
 
 
 def test_friction_turns_with_the_direction_of_sliding():
