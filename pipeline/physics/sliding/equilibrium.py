@@ -29,6 +29,8 @@ from pipeline.physics.contact.static_preload import BALANCED, Preload, balance, 
 from pipeline.physics.numerics.damped_newton import LowRank
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 
+#: contacts for each coordinate from which on Newton's method is quicker in the coordinates
+_FEW = 1.8
 #: shortest step of the rising friction, as a share of the whole
 _SMALLEST_RISE = 1 / 64
 
@@ -90,7 +92,7 @@ def closure_response(model, centrifugal=True):
         raise ConfigError("steady sliding", "joints and contacts that hold every body",
                           "a singular stiffness") from None
     count = len(contacts.area)
-    if count > len(moved):
+    if count > _FEW * len(moved):
         normal, tangent, inputs = np.split(moved, [count, 2 * count], axis=1)
         return _OfFewCoordinates(-contacts.normal, normal, tangent, -contacts.normal @ inputs, contacts.stiffness)
     return ClosureResponse(*np.split(-contacts.normal @ moved, [count, 2 * count], axis=1), contacts.stiffness)
