@@ -13,9 +13,11 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
+from pipeline.case_models.early.memory import peak_memory
 from pipeline.case_models.early.work import work
 from pipeline.cli.reference_pace import Reference, measured
 from pipeline.environment import user_folder
+from pipeline.physics.numerics.memory import available_memory
 
 #: notes of a stage that are kept; shorter times are not (s)
 _KEPT, _SHORTEST = 5, 0.5
@@ -27,6 +29,8 @@ _NEAR = 10.0
 _WORTH_TELLING = 20.0
 #: stages that take most of a run
 _LONG = ("micro_friction", "structure", "complex_modes", "convergence", "limit_cycle", "probability", "multibody")
+#: stages that hold whole finite-element models
+_LARGE = ("structure", "reduced_model", "complex_modes", "convergence")
 #: the measurement of this processor among the notes
 _PROCESSOR = "processor"
 
@@ -46,7 +50,18 @@ class Pace:
         """``job``: a ChainRun; ``workers``: its processes; ``folder``: where notes are kept; None: that of the user."""
         self._workers, self._path = workers, (folder or user_folder()) / "pace.json"
         self._work, self._notes, self._reference = work(job.case.sections), _read(self._path), Reference()
+        self._memory = peak_memory(job.case.sections)
         self.begin()
+
+    def short_of_memory(self, states):
+        """A sentence where the planned ``states`` may need more memory than is available; else ''."""
+        available = available_memory()
+        if available is None or self._memory <= available or not any(
+                state.reasons for state in states if state.stage.name in _LARGE):
+            return ""
+        return (f"warning: expected {self._memory / 1e9:.2g} GB of memory for this model, found"
+                f" {available / 1e9:.2g} GB available; use a coarser mesh or state fewer convergence.refinements: a"
+                " stage that does not fit ends before its factors are made")
 
     def begin(self):
         """Time runs from here on."""

@@ -24,6 +24,7 @@ def made(monkeypatch, folder, measure=1.0, workers=2, stages=None):
         table.write_text(json.dumps({"processor": 0.5, "stages": stages or {}}))
         monkeypatch.setattr(pace, "Reference", lambda: Reference(table))
     monkeypatch.setattr(pace, "measured", lambda: 1.0)
+    monkeypatch.setattr(pace, "peak_memory", lambda sections: 7e9)
     monkeypatch.setattr(pace, "work", lambda sections: dict.fromkeys(("structure", "probability", "report"), measure))
     return Pace(SimpleNamespace(case=SimpleNamespace(sections={"structure": True})), workers, folder)
 
@@ -117,3 +118,13 @@ def test_what_has_run_tells_the_pace_of_what_has_not(monkeypatch, tmp_path, cloc
     clock.time += 300.0
     first.note(state("structure"), 300.0)
     assert first._seconds("probability") == pytest.approx(3 * 2 * 80 * 0.75)
+
+
+def test_too_little_memory_is_said_before_the_start(monkeypatch, tmp_path, clock):
+    brake = made(monkeypatch, tmp_path)
+    monkeypatch.setattr(pace, "available_memory", lambda: 5e9)
+    assert "expected 7 GB of memory for this model, found 5 GB available" in brake.short_of_memory(STATES)
+    assert brake.short_of_memory(STATES[1:]) == "", "what holds the model is there"
+    for enough in (8e9, None):
+        monkeypatch.setattr(pace, "available_memory", lambda enough=enough: enough)
+        assert brake.short_of_memory(STATES) == ""

@@ -6,8 +6,8 @@ They follow from the settings alone: sizes of grids, numbers of elements, modes,
 from pipeline.case_models.bodies.mesh_files import freedoms_of_files
 from pipeline.case_models.operating_points import selected_speeds
 
-#: degrees of freedom of a mesh file that weigh as much as an element of the program; time of modes over their number
-_FREEDOMS, _POWER = 17.5, 1.2
+#: degrees of freedom of an element of the program, about; time of modes over their number
+FREEDOMS, _POWER = 21.3, 1.2
 #: edge of an element to which sizes are related (m), and elements of a bracket or piston of this edge
 _EDGE, _BLOCKS = 0.01, {"bracket": 800.0, "piston": 250.0}
 #: elements of a brake whose full matrices take as long at an operating point as its reduced model, and the power of the
@@ -34,7 +34,7 @@ def elements(brake):
               (caliper, caliper.angular_cells * caliper.radial_cells * (caliper.housing_cells + caliper.bridge_cells)),
               *((body, _BLOCKS[name] * (_EDGE / body.element_size) ** 3) for name in _BLOCKS
                 if (body := getattr(brake, name)).kind == "body")]
-    return sum(count for body, count in counts if not body.mesh_file) + freedoms_of_files(brake) / _FREEDOMS
+    return sum(count for body, count in counts if not body.mesh_file) + freedoms_of_files(brake) / FREEDOMS
 
 
 def _bodies(sections):

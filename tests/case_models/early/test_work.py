@@ -6,7 +6,7 @@ import pytest
 
 import stages
 from pipeline.case_models.early.first_look import coarse
-from pipeline.case_models.early.work import elements, work
+from pipeline.case_models.early.work import FREEDOMS, elements, work
 from pipeline.contract import case
 from tests.decks.meshes.small_decks import IRON, abaqus, ring
 
@@ -43,7 +43,7 @@ def test_a_mesh_file_counts_by_its_degrees_of_freedom(brake, tmp_path):
     path.write_text(abaqus(mesh, more=IRON))
     changes = {"structure.disc.mesh_file": str(path), "structure.disc.mesh_units": "mm-t-s"}
     assert elements(brake.varied(changes).sections["structure"]) == pytest.approx(
-        elements(brake.sections["structure"]) - 90 * 14 + 3 * len(mesh.node) / 17.5)
+        elements(brake.sections["structure"]) - 90 * 14 + 3 * len(mesh.node) / FREEDOMS)
 
 
 def test_systems_without_a_brake_have_measures_too():
