@@ -14,7 +14,7 @@ TABLE = Path(__file__).with_name("reference_pace.json")
 #: work that differs by more from that of all rows of a stage says nothing of it
 NEAR = 10.0
 #: sizes of what is measured, repetitions
-_SIZE, _GRID, _TIMES = 700, 512, 3
+_SIZE, _GRID, _TIMES = 700, 512, 10
 
 
 class Row(NamedTuple):

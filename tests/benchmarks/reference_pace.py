@@ -5,16 +5,21 @@
 Times are those that the products record; a case is read for its measures of work. Prints forecast and time taken."""
 
 import json
+import os
 import sys
 from pathlib import Path
 
-import h5py
+from pipeline.environment import ONE_THREAD
 
-import stages
-from pipeline.case_models.early.work import work
-from pipeline.cli.reference_pace import TABLE, Reference, Row, measured
-from pipeline.contract import case
-from pipeline.recordings import registry
+os.environ.update(ONE_THREAD)       # before anything loads linear algebra
+
+import h5py  # noqa: E402
+
+import stages  # noqa: E402
+from pipeline.case_models.early.work import work  # noqa: E402
+from pipeline.cli.reference_pace import TABLE, Reference, Row, measured  # noqa: E402
+from pipeline.contract import case  # noqa: E402
+from pipeline.recordings import registry  # noqa: E402
 
 #: shorter stages are left out (s), and those whose work has no measure
 _SHORTEST, _UNMEASURED = 0.5, ("multibody", "response", "squeal")
