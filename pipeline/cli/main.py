@@ -146,7 +146,7 @@ def _job_of(chosen, folder):
 
 def _open(early, pace, states):
     """Say how long the planned ``states`` will take, and have a first look where there is one."""
-    if told := pace.forecast(states):
+    for told in filter(None, (pace.forecast(states), pace.short_of_memory(states))):
         click.echo(told)
     if early:
         early.open(states)

@@ -1,6 +1,8 @@
-"""How long a run will take, by what earlier runs took on this machine.
+"""How long a run will take, by what earlier runs took on this machine, else by those of a machine of reference.
 
-Times of stages are kept in a folder of the user, each with a measure of its work, to which it is proportional.
+Times of stages are kept in a folder of the user, each with a measure of its work, to which it is proportional. The
+table of reference comes with the program; its CPU seconds are those of another processor, to which this one is related
+by what has run here or, before anything has, by a short measurement.
 """
 
 import json
@@ -11,8 +13,11 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
+from pipeline.case_models.early.memory import peak_memory
 from pipeline.case_models.early.work import work
+from pipeline.cli.reference_pace import Reference, measured
 from pipeline.environment import user_folder
+from pipeline.physics.numerics.memory import available_memory
 
 #: notes of a stage that are kept; shorter times are not (s)
 _KEPT, _SHORTEST = 5, 0.5
@@ -24,6 +29,10 @@ _NEAR = 10.0
 _WORTH_TELLING = 20.0
 #: stages that take most of a run
 _LONG = ("micro_friction", "structure", "complex_modes", "convergence", "limit_cycle", "probability", "multibody")
+#: stages that hold whole finite-element models
+_LARGE = ("structure", "reduced_model", "complex_modes", "convergence")
+#: the measurement of this processor among the notes
+_PROCESSOR = "processor"
 
 
 class Note(NamedTuple):
@@ -40,8 +49,19 @@ class Pace:
     def __init__(self, job, workers, folder=None):
         """``job``: a ChainRun; ``workers``: its processes; ``folder``: where notes are kept; None: that of the user."""
         self._workers, self._path = workers, (folder or user_folder()) / "pace.json"
-        self._work, self._notes = work(job.case.sections), _read(self._path)
+        self._work, self._notes, self._reference = work(job.case.sections), _read(self._path), Reference()
+        self._memory = peak_memory(job.case.sections)
         self.begin()
+
+    def short_of_memory(self, states):
+        """A sentence where the planned ``states`` may need more memory than is available; else ''."""
+        available = available_memory()
+        if available is None or self._memory <= available or not any(
+                state.reasons for state in states if state.stage.name in _LARGE):
+            return ""
+        return (f"warning: expected {self._memory / 1e9:.2g} GB of memory for this model, found"
+                f" {available / 1e9:.2g} GB available; use a coarser mesh or state fewer convergence.refinements: a"
+                " stage that does not fit ends before its factors are made")
 
     def begin(self):
         """Time runs from here on."""
@@ -56,7 +76,9 @@ class Pace:
             return ""
         if total < _WORTH_TELLING:
             return f"how long this takes is not known: no run of {', '.join(unknown)} on this machine yet"
-        told = f"this will take about {_duration(total)} by the times of earlier runs on this machine"
+        known = all(self._noted(name) for name, seconds in expected.items() if seconds and name in _LONG)
+        source = "earlier runs on this machine" if known else "another machine, scaled to this one"
+        told = f"this will take about {_duration(total)} by the times of {source}"
         beside = f", and what {' and '.join(unknown)} will take, no run of which is known" * bool(unknown)
         return told + beside
 
@@ -67,15 +89,15 @@ class Pace:
             return
         name, taken = state.stage.name, time.monotonic() - self._since
         if seconds is not None and taken >= _SHORTEST:
-            self._keep(name, Note(self._work[name], taken, self._variants))
+            self._keep(self._key(name), Note(self._work[name], taken, self._variants))
         self.begin()
 
     def _key(self, name):
         return f"{name} with {self._workers}"
 
-    def _keep(self, name, note):
+    def _keep(self, key, note):
         """Add a note to the file, which other runs may have changed since."""
-        notes, key = _read(self._path), self._key(name)
+        notes = _read(self._path)
         notes[key] = [*notes.get(key, []), note][-_KEPT:]
         self._notes, partial = notes, self._path.with_name(f".pace.{os.getpid()}")
         with suppress(OSError):
@@ -84,10 +106,32 @@ class Pace:
             os.replace(partial, self._path)
 
     def _seconds(self, name):
+        """Seconds of a stage by its notes, else by the reference, or None."""
+        noted = self._noted(name)
+        if noted is not None:
+            return noted
+        there = self._reference.seconds(name, self._work[name], self._workers)
+        return None if there is None else there * self._slower()
+
+    def _noted(self, name):
         """Seconds of a stage by its notes, or None; those with fewer variants went on from an interrupted run."""
         notes = self._notes.get(self._key(name), [])
         whole = max((note.variants for note in notes), default=0)
         return _scaled([note for note in notes if note.variants == whole], self._work[name])
+
+    def _slower(self):
+        """Time that this machine takes over that of the reference: by the stages that have run here, in the median, or
+        by a measurement of the processor, which is kept."""
+        ratios = []
+        for stage in _LONG:
+            for note in self._notes.get(self._key(stage), []):
+                there = self._reference.seconds(stage, note.work, self._workers)
+                ratios += [note.seconds / there] if there else []
+        if ratios:
+            return median(ratios)
+        if _PROCESSOR not in self._notes:
+            self._keep(_PROCESSOR, Note(1.0, measured(), 0.0))
+        return self._notes[_PROCESSOR][-1].seconds / self._reference.processor
 
 
 def _scaled(notes, size):

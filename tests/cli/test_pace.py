@@ -7,6 +7,7 @@ import pytest
 
 from pipeline.cli import pace
 from pipeline.cli.pace import Pace
+from pipeline.cli.reference_pace import Reference
 
 
 @pytest.fixture
@@ -16,7 +17,14 @@ def clock(monkeypatch):
     return now
 
 
-def made(monkeypatch, folder, measure=1.0, workers=2):
+def made(monkeypatch, folder, measure=1.0, workers=2, stages=None):
+    """A Pace with a table of reference of these ``stages``."""
+    table = folder / "reference.json"
+    if folder.is_dir():
+        table.write_text(json.dumps({"processor": 0.5, "stages": stages or {}}))
+        monkeypatch.setattr(pace, "Reference", lambda: Reference(table))
+    monkeypatch.setattr(pace, "measured", lambda: 1.0)
+    monkeypatch.setattr(pace, "peak_memory", lambda sections: 7e9)
     monkeypatch.setattr(pace, "work", lambda sections: dict.fromkeys(("structure", "probability", "report"), measure))
     return Pace(SimpleNamespace(case=SimpleNamespace(sections={"structure": True})), workers, folder)
 
@@ -89,3 +97,34 @@ def test_a_folder_that_cannot_be_written_is_left(monkeypatch, tmp_path, clock):
     (tmp_path / "file").write_text("")
     run(made(monkeypatch, tmp_path / "file"), clock, 60.0)
     assert (tmp_path / "file").read_text() == ""
+
+
+def test_where_nothing_has_run_the_reference_tells_by_the_pace_of_the_processor(monkeypatch, tmp_path, clock):
+    """Half the pace of the reference, which took 100 and 80 CPU s, the latter side by side."""
+    table = {"structure": [[1.0, 100.0, 0.0]], "probability": [[1.0, 80.0, 1.0]]}
+    first = made(monkeypatch, tmp_path, stages=table)
+    assert first.forecast(STATES) == "this will take about 5 min by the times of another machine, scaled to this one"
+    assert first._seconds("probability") == pytest.approx(80) and first._seconds("structure") == pytest.approx(200)
+    assert made(monkeypatch, tmp_path, workers=1, stages=table)._seconds("probability") == pytest.approx(160)
+    monkeypatch.setattr(pace, "measured", lambda: 1 / 0)
+    assert first._seconds("structure") == pytest.approx(200), "measured once"
+
+
+def test_what_has_run_tells_the_pace_of_what_has_not(monkeypatch, tmp_path, clock):
+    """Structure took thrice the time of the reference here: so will draws, twice as many as there."""
+    table = {"structure": [[2.0, 100.0, 0.0]], "probability": [[1.0, 80.0, 0.5]]}
+    first = made(monkeypatch, tmp_path, measure=2.0, stages=table)
+    first.begin()
+    clock.time += 300.0
+    first.note(state("structure"), 300.0)
+    assert first._seconds("probability") == pytest.approx(3 * 2 * 80 * 0.75)
+
+
+def test_too_little_memory_is_said_before_the_start(monkeypatch, tmp_path, clock):
+    brake = made(monkeypatch, tmp_path)
+    monkeypatch.setattr(pace, "available_memory", lambda: 5e9)
+    assert "expected 7 GB of memory for this model, found 5 GB available" in brake.short_of_memory(STATES)
+    assert brake.short_of_memory(STATES[1:]) == "", "what holds the model is there"
+    for enough in (8e9, None):
+        monkeypatch.setattr(pace, "available_memory", lambda enough=enough: enough)
+        assert brake.short_of_memory(STATES) == ""

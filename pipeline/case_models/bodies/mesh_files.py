@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from pipeline.contract import InputFile, Names, Section, option
+from pipeline.systems.mesh_files.bodies import bodies_of_decks
 
 Units = Literal["SI", "mm-t-s", "mm-kg-ms"]
 #: bodies of a brake that a deck may hold
@@ -64,3 +65,8 @@ def _extended(section, body, more, where):
                  for name, value in more.items()}
         return section.model_copy(update=names | {key: Path(more[key])})
     return {**({"kind": "body"} if body in ("bracket", "piston") else {}), **(section or {}), **more}
+
+
+def freedoms_of_files(brake):
+    """Degrees of freedom of the bodies of the section ``structure``, ``brake``, that come from mesh files."""
+    return sum(3 * len(body.mesh.node) for bodies in bodies_of_decks(brake).values() for body in bodies.values())

@@ -3,12 +3,11 @@
 They follow from the settings alone: sizes of grids, numbers of elements, modes, points, steps and draws.
 """
 
-import os
-
+from pipeline.case_models.bodies.mesh_files import freedoms_of_files
 from pipeline.case_models.operating_points import selected_speeds
 
-#: bytes of a mesh file for each of its elements, with its nodes; time of modes over the number of elements
-_BYTES, _POWER = 250.0, 1.2
+#: degrees of freedom of an element of the program, about; time of modes over their number
+FREEDOMS, _POWER = 21.3, 1.2
 #: edge of an element to which sizes are related (m), and elements of a bracket or piston of this edge
 _EDGE, _BLOCKS = 0.01, {"bracket": 800.0, "piston": 250.0}
 #: elements of a brake whose full matrices take as long at an operating point as its reduced model, and the power of the
@@ -28,16 +27,14 @@ def work(sections):
 
 
 def elements(brake):
-    """Number of finite elements of a brake, about: of bodies from files by the size of these."""
+    """Number of finite elements of a brake, about: of bodies from files by their degrees of freedom."""
     disc, pad, caliper = brake.disc, brake.pad, brake.caliper
     counts = [(disc, disc.angular_cells * (disc.web_cells + disc.ring_cells)),
               (pad, 2 * pad.patches_angular * pad.patches_radial * pad.cells_per_patch ** 2 * (pad.lining_layers + 1)),
               (caliper, caliper.angular_cells * caliper.radial_cells * (caliper.housing_cells + caliper.bridge_cells)),
               *((body, _BLOCKS[name] * (_EDGE / body.element_size) ** 3) for name in _BLOCKS
                 if (body := getattr(brake, name)).kind == "body")]
-    files = {body.mesh_file for body, _ in counts if body.mesh_file}
-    meshed = sum(count for body, count in counts if not body.mesh_file)
-    return meshed + sum(os.path.getsize(file) for file in files) / _BYTES
+    return sum(count for body, count in counts if not body.mesh_file) + freedoms_of_files(brake) / FREEDOMS
 
 
 def _bodies(sections):

@@ -13,6 +13,8 @@ from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.numerics.damped_newton import damped_newton
 from pipeline.physics.numerics.sparse_solver import factorise
 
+#: forces that are solved for at once
+_COLUMNS = 128
 _STEPS = 100
 _HALVINGS = 30
 #: largest accepted imbalance of a contact force, as a share of the largest
@@ -38,9 +40,10 @@ def condense(stiffness, normal, load, solver):
 
     ``stiffness`` (n, n) sparse [N/m] regular without contact; ``normal`` (c, n) sparse, positive opens.
     """
-    columns = np.column_stack((normal.T.toarray(), load))
-    moved = normal @ factorise(stiffness, solver).solve(columns)
-    return (moved[:, :-1] + moved[:, :-1].T) / 2, -moved[:, -1]
+    factor = factorise(stiffness, solver)
+    blocks = (normal[k:k + _COLUMNS].T.toarray() for k in range(0, normal.shape[0], _COLUMNS))
+    compliance = np.hstack([normal @ factor.solve(block) for block in blocks])
+    return (compliance + compliance.T) / 2, -(normal @ factor.solve(load))
 
 
 def contact_law(pressure, stiffness, largest):
@@ -91,10 +94,10 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
 def balance(equation, closure, first, reference):
     """(closures (c,) m, imbalance): Newton's method on ``equation``, from ``closure``, steps halved where needed.
 
-    ``equation(closure)`` gives what is missing (c,) m, its derivative (c, c), force (c,) N and its slope (c,) N/m. The
-    imbalance is the largest change of a force that one more step would make, as a share of the largest force or of
-    ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has just closed. At most
-    BALANCED where the method converged, infinite where the derivative is singular.
+    ``equation(closure)`` gives what is missing (c,) m, its derivative (c, c) or LowRank, force (c,) N and its slope
+    (c,) N/m. The imbalance is the largest change of a force that one more step would make, as a share of the largest
+    force or of ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has just
+    closed. At most BALANCED where the method converged, infinite where the derivative is singular.
     """
     def imbalance(step, force, slope):
         return np.abs(np.maximum(slope, first) * step).max() / (max(force.max(), reference) or 1.0)

@@ -17,12 +17,32 @@ class Balance(NamedTuple):
     error: float
 
 
+class LowRank(NamedTuple):
+    """The derivative 1 - ``left`` (n, r) ``right`` (r, n), r being less than n."""
+
+    left: np.ndarray
+    right: np.ndarray
+
+    def whole(self):
+        return np.eye(len(self.left)) - self.left @ self.right
+
+    def solved(self, miss):
+        """x (n,) of 1 - left right by that of 1 - right left (Woodbury)."""
+        small = np.eye(len(self.right)) - self.right @ self.left
+        return miss + self.left @ np.linalg.solve(small, self.right @ miss)
+
+    def rounding(self, step, miss):
+        """Size of what a ``step`` leaves of what is missing."""
+        return np.linalg.norm(step - self.left @ (self.right @ step) - miss)
+
+
 def damped_newton(equation, start, size, tolerance, steps, halvings):
     """Balance of ``equation`` from ``start`` (n,): converged where its error is at most ``tolerance``.
 
-    ``equation(unknown)`` gives what is missing (n,), its derivative (n, n), and whatever else ``size(step, ...)`` asks
-    for to tell how much a step would change. After ``steps`` steps, each halved up to ``halvings`` times, it gives up.
-    Where the derivative is singular, as that of a body that touches nothing, the shortest step is taken that does best.
+    ``equation(unknown)`` gives what is missing (n,), its derivative (n, n) or LowRank, and whatever else
+    ``size(step, ...)`` asks for to tell how much a step would change. After ``steps`` steps, each halved up to
+    ``halvings`` times, it gives up. Where the derivative is singular, as that of a body that touches nothing, the
+    shortest step is taken that does best.
     """
     unknown, (miss, derivative, *more) = start, equation(start)
     for _ in range(steps):
@@ -39,12 +59,14 @@ def damped_newton(equation, start, size, tolerance, steps, halvings):
 
 
 def _step(derivative, miss):
-    """(Step (n,), whether it follows from the ``derivative`` (n, n) beyond its rounding)."""
+    """(Step (n,), whether it follows from the ``derivative``, (n, n) or LowRank, beyond its rounding)."""
+    low_rank = isinstance(derivative, LowRank)
     try:
-        step = np.linalg.solve(derivative, miss)
-        rounding = np.finfo(float).eps * np.linalg.norm(derivative) * np.linalg.norm(step)
+        step = derivative.solved(miss) if low_rank else np.linalg.solve(derivative, miss)
+        rounding = derivative.rounding(step, miss) if low_rank else (
+            np.finfo(float).eps * np.linalg.norm(derivative) * np.linalg.norm(step))
         if rounding <= _UNSOUND * np.linalg.norm(miss):
             return step, True
     except np.linalg.LinAlgError:
         pass
-    return np.linalg.lstsq(derivative, miss, rcond=_SINGULAR)[0], False
+    return np.linalg.lstsq(derivative.whole() if low_rank else derivative, miss, rcond=_SINGULAR)[0], False

@@ -187,15 +187,20 @@ def _held_modes_below(stiffness, mass, rows, below, solver):
 
 
 def _without(modes, mass, shapes):
-    """The part of ``shapes`` outside the mass-orthonormal ``modes``; projected twice against rounding."""
+    """The part of ``shapes`` outside the mass-orthonormal ``modes``, in their memory; projected twice against
+    rounding."""
     for _ in range(2):
-        shapes = shapes - modes @ (modes.T @ (mass @ shapes))
+        shapes -= modes @ (modes.T @ (mass @ shapes))
     return shapes
 
 
 def _pseudo_modes(stiffness, mass, residual, below):
-    """Mass-orthonormal combinations of the residual shapes that diagonalise the stiffness, below a frequency [Hz]."""
-    residual = residual / np.sqrt((residual * (stiffness @ residual)).sum(axis=0))
+    """Mass-orthonormal combinations of the ``residual`` shapes, whose memory it uses, that diagonalise the stiffness,
+    below a frequency [Hz]."""
+    image = stiffness @ residual
+    image *= residual
+    residual /= np.sqrt(image.sum(axis=0))
+    del image
     energy, inertia = projected(stiffness, residual), projected(mass, residual)
     size, direction = scipy.linalg.eigh(energy)
     kept = direction[:, size > 1e-10 * size[-1]] / np.sqrt(size[size > 1e-10 * size[-1]])

@@ -6,8 +6,9 @@ import pytest
 
 import stages
 from pipeline.case_models.early.first_look import coarse
-from pipeline.case_models.early.work import elements, work
+from pipeline.case_models.early.work import FREEDOMS, elements, work
 from pipeline.contract import case
+from tests.decks.meshes.small_decks import IRON, abaqus, ring
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 #: CPU seconds of the default brake and of its first look on one machine
@@ -37,14 +38,12 @@ def test_more_of_what_takes_time_is_more_work(brake, changes, stage, times):
     assert after["friction_map"] == before["friction_map"] == 1.0
 
 
-def test_a_mesh_file_counts_by_its_size_and_once(brake, tmp_path):
-    path = tmp_path / "disc.inp"
-    path.write_bytes(b" " * 250_000)
-    alone = elements(brake.varied({"structure.disc.mesh_file": str(path)}).sections["structure"])
-    shared = elements(brake.varied({"structure.disc.mesh_file": str(path), "structure.caliper.mesh_file": str(path)}
-                                   ).sections["structure"])
-    assert alone == elements(brake.sections["structure"]) - 90 * 14 + 1000
-    assert shared == alone - 8 * 4 * 6
+def test_a_mesh_file_counts_by_its_degrees_of_freedom(brake, tmp_path):
+    path, mesh = tmp_path / "disc.inp", ring()
+    path.write_text(abaqus(mesh, more=IRON))
+    changes = {"structure.disc.mesh_file": str(path), "structure.disc.mesh_units": "mm-t-s"}
+    assert elements(brake.varied(changes).sections["structure"]) == pytest.approx(
+        elements(brake.sections["structure"]) - 90 * 14 + 3 * len(mesh.node) / FREEDOMS)
 
 
 def test_systems_without_a_brake_have_measures_too():

@@ -12,6 +12,7 @@ from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.pads.pad_system import pad_system
 from pipeline.physics.pads.sliding_pads import linearised
 from pipeline.physics.sliding.equilibrium import (
+    ClosureResponse,
     closure_response,
     displacement,
     falling_with_speed,
@@ -222,3 +223,16 @@ def test_contacts_without_a_law_stay_as_given():
     step = 1e-6
     ahead, behind = (falling_with_speed(0.3, 0.5, 1.0, 0.0, 2.0 + s).coefficient for s in (step, -step))
     np.testing.assert_allclose(state.friction.speed_slope, (ahead - behind) / (2 * step), rtol=1e-8)
+
+
+def test_more_contacts_than_coordinates_have_the_same_state():
+    """Six contacts on a block of three coordinates, one of which friction tips open: beside the whole matrices."""
+    place = np.linspace(-HALF, HALF, 6)
+    model = rubbed_block()
+    rows = np.column_stack((0 * place, 1 + 0 * place, place)), np.tile(model.contacts.tangent[0], (6, 1))
+    model = sliding_model_of(model.stiffness, model.damping, *rows, 0 * rows[0], model.input_rows, 1.0)
+    few = closure_response(model)
+    whole = ClosureResponse(few.rows @ few.normal, few.rows @ few.tangent, few.inputs, few.stiffness)
+    made, expected = (steady_sliding(model, each, np.array([LOAD]), *CURVED, 1.5).contact for each in (few, whole))
+    assert (expected.force == 0).any()
+    np.testing.assert_allclose(made.force, expected.force, rtol=1e-9, atol=1e-9 * LOAD)
