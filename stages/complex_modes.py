@@ -10,6 +10,7 @@ unknown.
 
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import islice
 
 import numpy as np
 import scipy
@@ -181,11 +182,10 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     law, number = sliding_friction(friction_map, model, settings), len(settings.speeds)
     full = has_full_matrices(structure, models[0][0], settings, context)
     slide = partial(slid_on_elements, partial(full_model, structure, context.solver), context.solver, law, settings)
-    roots, about = _sweep(states, friction, slide if full else None, settings, context)
     points = [m.at_speed(speed) for m, _ in models for speed in settings.speeds]
     losses = [Losses.of(at_state(model, k // number)) for k in range(len(points))]
     tasks = [(case, states[k // number], lost) for k, (case, lost) in enumerate(zip(points, losses, strict=True))]
-    outcomes = context.map(partial(_operate, settings, law), tasks, "operating points")
+    about, roots, outcomes = _solved(states, tasks, friction, slide if full else None, law, settings, context)
     if full:
         outcomes = in_full(about, points, outcomes, model.contact_body, settings, context)
     outcomes = [growing(o, settings) for o in outcomes]
@@ -236,17 +236,19 @@ def _basis(model, settings, changes):
                           changes, settings.centrifugal, branch_stiffness(model), adjoint=1.0)
 
 
-def _sweep(states, friction, slide, settings, context):
-    """(Roots (friction, n) of every state, followed over friction from the lowest without friction upwards; the answer
-    of ``slide``, unless it is None, to all operating points, which takes as long as all that is done beside it)."""
+def _solved(states, tasks, friction, slide, law, settings, context):
+    """(The answer of ``slide`` to all operating points, None without it; roots (friction, n) of every state, followed
+    over friction from the lowest without friction upwards; an _Outcome of each operating point), all side by side."""
     chunks = np.array_split(friction, -(-len(friction) // _CHUNK))
     points = [(s.posed.at_speed(speed), s.response, s.input_force) for s in states for speed in settings.speeds]
-    beside = [] if slide is None else [(slide, points)]
-    results = context.map(_answer, [*beside, *((partial(_roots_over_friction, settings), (s, c))
-                                               for s in states for c in chunks)], "friction sweep")
-    about, results = results[:len(beside)], results[len(beside):]
-    roots = [np.vstack(results[k:k + len(chunks)]) for k in range(0, len(results), len(chunks))]
-    return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots], *(about or [None])
+    long = [] if slide is None else [(slide, points)]
+    sweep = [(partial(_roots_over_friction, settings), (s, c)) for s in states for c in chunks]
+    operating = [(partial(_operate, settings, law), task) for task in tasks]
+    results = context.map(_answer, long + sweep + operating, "friction sweep, operating points")
+    rest = iter(results)
+    about, swept, outcomes = (list(islice(rest, len(part))) for part in (long, sweep, operating))
+    roots = [np.vstack(swept[k:k + len(chunks)]) for k in range(0, len(swept), len(chunks))]
+    return (*about, None)[0], [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots], outcomes
 
 
 def _answer(task):

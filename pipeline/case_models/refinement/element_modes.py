@@ -16,8 +16,9 @@ from pipeline.systems.disc_brake import build, moduli_left, softened
 
 #: bytes a degree of freedom: matrices, a factor and the search space of a family (measured: 34,000 to 35,000)
 _BYTES = 36e3
-#: frequencies of one family, which shares a factor, differ by no more than this factor
-_FAMILY = 1.1
+#: frequencies of one family, which shares a factor, differ by no more than this factor, or this many rad/s: modes are
+#: about as dense at all frequencies, and each that lies between costs the others steps
+_FAMILY, _APART = 1.1, 2 * np.pi * 250
 #: a factor is made beside the middle of its family, where it is regular
 _BESIDE = 1.001
 
@@ -106,10 +107,11 @@ def _in_double(factor):
 
 
 def families(frequency):
-    """[indices] of rising ``frequency`` (g,), each within a factor of its first."""
+    """[indices] of rising ``frequency`` (g,) rad/s, each near the first of its own."""
     groups = []
     for k, each in enumerate(frequency):
-        if groups and each < _FAMILY * frequency[groups[-1][0]]:
+        first = frequency[groups[-1][0]] if groups else -np.inf
+        if each < max(_FAMILY * first, first + _APART):
             groups[-1].append(k)
         else:
             groups.append([k])

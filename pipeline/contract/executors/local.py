@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.executors.lent_arrays import Lender
 from pipeline.contract.fingerprint import project_digest
 from pipeline.contract.following import follow
 from pipeline.environment import ONE_THREAD, SAFE
@@ -79,20 +80,29 @@ def _begin(parent):
     follow(parent)
 
 
+def _run_packed(content):
+    """``run_task`` of a packed (function, item)."""
+    return run_task(*pickle.loads(content))
+
+
 class LocalProcesses:
     """``workers`` processes on this machine, started when first needed."""
 
     sees_files = True
 
     def __init__(self, workers):
-        self.workers, self._pool, self.spent_elsewhere = workers, None, 0.0
+        self.workers, self._pool, self.spent_elsewhere, self._lender = workers, None, 0.0, Lender()
 
     def _submit(self, function, item):
+        """The Future of a task, whose large arrays are lent until it is done."""
         if self._pool is None:
             os.environ.update(ONE_THREAD | SAFE)
             spawn = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(self.workers, spawn, _begin, (os.getpid(),))
-        return self._pool.submit(run_task, function, item)
+        task = self._lender.packed((function, item))
+        future = self._pool.submit(_run_packed, task.content)
+        future.add_done_callback(lambda _: self._lender.take_back(task))
+        return future
 
     def begin(self, function, item):
         """A Future of (``function(item)``, its CPU seconds), which takes one of several processes; else None."""

@@ -131,5 +131,6 @@ def test_linings_are_as_stiff_as_at_the_operating_point():
     np.testing.assert_allclose(made[1], plain[1])
 
 
-def test_families_share_a_tenth_of_frequency():
-    assert families(np.array([100.0, 109.0, 111.0, 200.0])) == [[0, 1], [2], [3]]
+def test_families_share_a_tenth_of_frequency_or_250_hz():
+    assert families(2 * np.pi * np.array([1e4, 1.09e4, 1.11e4, 2e4])) == [[0, 1], [2], [3]]
+    assert families(2 * np.pi * np.array([300.0, 540.0, 560.0])) == [[0, 1], [2]]
