@@ -29,12 +29,11 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
     from pipeline.views.pages.verdict_file import verdict_text
 
     look = Look(settings.dots_per_inch, settings.mode_pictures)
-    chapters = []
-    builders = plan(products, look)
-    with context.progress("chapters", len(builders)) as progress:
-        for build in builders:
-            chapters.append(build())
-            progress.advance()
-    chapters = [chapter for chapter in chapters if chapter is not None]
+    chapters = [chapter for chapter in context.map(_written, plan(products, look), "chapters") if chapter is not None]
     return Report(html=page(chapters, products, context.case, look),
                   verdict=verdict_text(verdict(products, ()), products))
+
+
+def _written(build):
+    """What a function without arguments gives."""
+    return build()

@@ -70,7 +70,7 @@ MAY_IMPORT = {
     "pipeline.cli": {"pipeline.contract"},
     "pipeline.cli.options": set(),
     "pipeline.cli.early_pages": {"pipeline.contract", "pipeline.case_models.early", "pipeline.views.pages.early"},
-    "pipeline.cli.pace": {"pipeline.case_models.early", "pipeline.cli.reference_pace", "pipeline.environment",
+    "pipeline.cli.pace": {"pipeline.case_models.early", "pipeline.case_models.early.reference_pace", "pipeline.environment",
                           "pipeline.physics.numerics.memory"},
     "pipeline.cli.facts": {"pipeline.cli", "pipeline.contract", "pipeline.products", "pipeline.views.pages.facts"},
     "pipeline.cli.compare": {"pipeline.cli", "pipeline.contract", "pipeline.products",

@@ -20,6 +20,8 @@ from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
 
 RUNS = Path("data/runs")
+#: a stage that took less leaves the page to the next one (s)
+_WORTH_A_PAGE = 0.1
 
 
 class Derived(click.Group):
@@ -159,7 +161,7 @@ def _report(early, pace, state, seconds):
         name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
         click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
     if early and not state.variant:
-        early.follow(state.stage, seconds is not None)
+        early.follow(state.stage, computed=seconds is not None and seconds > _WORTH_A_PAGE)
 
 
 def _because(reasons, most=3, longest=100):

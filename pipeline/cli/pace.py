@@ -14,8 +14,8 @@ from statistics import median
 from typing import NamedTuple
 
 from pipeline.case_models.early.memory import peak_memory
+from pipeline.case_models.early.reference_pace import Reference, measured
 from pipeline.case_models.early.work import work
-from pipeline.cli.reference_pace import Reference, measured
 from pipeline.environment import user_folder
 from pipeline.physics.numerics.memory import available_memory
 

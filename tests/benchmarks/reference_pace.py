@@ -16,8 +16,8 @@ os.environ.update(ONE_THREAD)       # before anything loads linear algebra
 import h5py  # noqa: E402
 
 import stages  # noqa: E402
+from pipeline.case_models.early.reference_pace import TABLE, Reference, Row, measured  # noqa: E402
 from pipeline.case_models.early.work import work  # noqa: E402
-from pipeline.cli.reference_pace import TABLE, Reference, Row, measured  # noqa: E402
 from pipeline.contract import case  # noqa: E402
 from pipeline.recordings import registry  # noqa: E402
 

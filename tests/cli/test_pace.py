@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from pipeline.case_models.early.reference_pace import Reference
 from pipeline.cli import pace
 from pipeline.cli.pace import Pace
-from pipeline.cli.reference_pace import Reference
 
 
 @pytest.fixture

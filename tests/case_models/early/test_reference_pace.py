@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.cli.reference_pace import Reference, measured
+from pipeline.case_models.early.reference_pace import Reference, measured
 
 
 @pytest.fixture
