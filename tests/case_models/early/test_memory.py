@@ -12,11 +12,11 @@ CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def test_the_default_takes_what_was_measured():
-    """5.7 GB, for a finer model of 146,000 degrees of freedom; without that one 62,000 are left."""
+    """8.7 GB, for a finer model of 213,000 degrees of freedom; without that one 76,000 are left."""
     brake = case.load(CONFIGS / "disc_brake.yaml", stages.CHAINS, stages.load)
-    assert peak_memory(brake.sections) == pytest.approx(5.7e9, rel=0.3)
+    assert peak_memory(brake.sections) == pytest.approx(8.7e9, rel=0.2)
     alone = peak_memory(brake.varied({"convergence.refinements": ["bases"]}).sections)
-    assert alone == pytest.approx(0.6e9 + 34e3 * 62_400, rel=0.1)
+    assert alone == pytest.approx(0.6e9 + 34e3 * 76_400, rel=0.15)
 
 
 def test_systems_without_a_brake_are_not_weighed():
