@@ -28,6 +28,8 @@ _STEP, _SHORTEST, _LONGEST, _STAYS, _TAKEN = 1 / 40, 2.0**-10, 4.0, 0.98, 0.9
 _LIKE, _MARGIN, _FAR = 0.6, 0.1, 0.25
 #: shift of the target beside the root, and accepted distance of the first root from the named one, as shares of it
 _BESIDE, _SAME = 1e-4, 1e-6
+#: of two roots near each other, as of a motion that nothing holds, no more than half of the digits are known
+_DOUBLE = np.sqrt(np.finfo(float).eps)
 #: accuracy of the critical share
 _CRITICAL = 1e-5
 #: frequencies that differ by less are one mode at several operating points
@@ -89,7 +91,7 @@ def friction_path(system, root, vector, neutral=1e-6):
     system has no such root at share 1.
     """
     first = _Point.near(system, 1.0, root)
-    here = abs(first.root - root) <= _SAME * abs(root)
+    here = abs(first.root - root) <= np.maximum(_SAME * abs(root), _DOUBLE * abs(first.root).max())
     if not here.any():
         raise ConvergenceError("path over friction", f"the root {root:.6g} 1/s in the system at its operating point",
                                f"{first.root[:1]} 1/s nearest to it", "lower smallest_correction")
