@@ -66,7 +66,8 @@ def statement(convergence):
                 f" {percent(convergence.frequency_change, 2)} and growth rates within"
                 f" {percent(convergence.growth_share, 2)} ({quantity(convergence.growth_change, '1/s', 2)})")
     if convergence.converged.item():
-        return f"Converged: {stay}."
+        where = f"{quantity(convergence.pressure, 'Pa', 3)} and {quantity(convergence.speed, 'rad/s')}"
+        return f"Converged at {where}, where it was tried: {stay}."
     return f"{stay[0].upper()}{stay[1:]}.{_unjudged(convergence)}"
 
 

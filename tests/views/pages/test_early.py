@@ -42,7 +42,7 @@ def test_what_is_known_replaces_what_is_to_come():
     assert "How likely Being computed." in text and "How certain Being computed." in text
     assert "There is no published result" not in text, "the comparison is to come"
     sentence, html = later_page({**products, "convergence": small.convergence()}, small.case(), AHEAD[1:])
-    assert "convergence" not in sentence and "Converged: the same modes" in text_of(html)
+    assert "convergence" not in sentence and "where it was tried: the same modes" in text_of(html)
     assert "This page is not complete. Being computed: limit cycle, probability, comparison." in text_of(html)
 
 

@@ -56,7 +56,7 @@ def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_
     told = verdict(ending, ())
     assert told.headline.startswith("Squeal can start at 9 of 9 operating points, most strongly at 16.6")
     assert told.tone == "squeal" and "within 3\u202f%" in said(told)
-    assert "Converged: the same modes are unstable in the finer model" in said(told)
+    assert "Converged at 3\u202fMPa and 10.25\u202frad/s, where it was tried: the same modes are unstable" in said(told)
     told = verdict({**ending, "convergence": small.convergence(converged=False)}, ())
     assert told.headline.endswith("(not converged)") and told.tone == "warning"
     assert "8.037\u202fkHz: 360 becomes 250 1/s; 10.85\u202fkHz is gone" in said(told)
