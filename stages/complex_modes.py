@@ -11,6 +11,7 @@ unknown.
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
+from operator import call
 
 import numpy as np
 import scipy
@@ -241,19 +242,14 @@ def _solved(states, tasks, friction, slide, law, settings, context):
     over friction from the lowest without friction upwards; an _Outcome of each operating point), all side by side."""
     chunks = np.array_split(friction, -(-len(friction) // _CHUNK))
     points = [(s.posed.at_speed(speed), s.response, s.input_force) for s in states for speed in settings.speeds]
-    long = [] if slide is None else [(slide, points)]
-    sweep = [(partial(_roots_over_friction, settings), (s, c)) for s in states for c in chunks]
-    operating = [(partial(_operate, settings, law), task) for task in tasks]
-    results = context.map(_answer, long + sweep + operating, "friction sweep, operating points")
+    long = [] if slide is None else [partial(slide, points)]
+    sweep = [partial(_roots_over_friction, settings, (s, c)) for s in states for c in chunks]
+    operating = [partial(_operate, settings, law, task) for task in tasks]
+    results = context.map(call, long + sweep + operating, "friction sweep, operating points")
     rest = iter(results)
     about, swept, outcomes = (list(islice(rest, len(part))) for part in (long, sweep, operating))
     roots = [np.vstack(swept[k:k + len(chunks)]) for k in range(0, len(swept), len(chunks))]
     return (*about, None)[0], [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots], outcomes
-
-
-def _answer(task):
-    """function(argument) of a ``task`` (function, argument)."""
-    return task[0](task[1])
 
 
 def _roots_over_friction(settings, task):

@@ -1,5 +1,7 @@
 """The report page of a case."""
 
+from operator import call
+
 from pipeline.contract import Context, Products, Section, option, stage
 from pipeline.products import Report
 
@@ -29,11 +31,6 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
     from pipeline.views.pages.verdict_file import verdict_text
 
     look = Look(settings.dots_per_inch, settings.mode_pictures)
-    chapters = [chapter for chapter in context.map(_written, plan(products, look), "chapters") if chapter is not None]
+    chapters = [chapter for chapter in context.map(call, plan(products, look), "chapters") if chapter is not None]
     return Report(html=page(chapters, products, context.case, look),
                   verdict=verdict_text(verdict(products, ()), products))
-
-
-def _written(build):
-    """What a function without arguments gives."""
-    return build()

@@ -67,3 +67,11 @@ def test_no_package_of_users_is_under_a_strong_copyleft_licence():
     assert kinds["numpy"] == "permissive" and kinds["nptdms"] == "weak copyleft"
     assert {name for name, kind in kinds.items() if kind == "strong copyleft"} <= {"tamaas"}
     assert not [name for name, kind in kinds.items() if name in users and kind in ("unknown", "strong copyleft")]
+
+
+def test_files_beside_the_sources_are_packaged():
+    settings = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())
+    patterns = settings["tool"]["setuptools"]["package-data"]["pipeline"]
+    package = Path(__file__).parents[1] / "pipeline"
+    files = [file.relative_to(package) for file in package.rglob("*.*") if file.suffix not in (".py", ".pyc")]
+    assert files and [file for file in files if not any(file.match(pattern) for pattern in patterns)] == []

@@ -104,6 +104,10 @@ class RunContext(context.Context):
         with self.bars.work(label, len(items)) as progress:
             return self.executor.map(function, items, progress.advance)
 
+    @property
+    def spares(self):
+        return self.executor.spares
+
     def begin(self, function, item):
         return self.executor.begin(function, item)
 

@@ -36,7 +36,7 @@ class EarlyPages:
         self._done.add(stage.name)
         coming = [name for name in self._stages if name not in self._done]
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
-            self._try(lambda: self._follow(self._done, coming[:-1]))
+            self._try(lambda: self._follow(coming[:-1]))
 
     def _look(self):
         changes = coarse(self._job.case.sections)
@@ -49,10 +49,10 @@ class EarlyPages:
         modes = store.read(last.output, run.path(last.output))
         self._show(*first_page(modes, self._card(), [name for name in self._stages if name != "report"]))
 
-    def _follow(self, behind, ahead):
+    def _follow(self, ahead):
         from pipeline.views.pages.early import later_page
 
-        outputs = {name: stage.output for name, stage in self._stages.items() if name in behind}
+        outputs = {name: stage.output for name, stage in self._stages.items() if name in self._done}
         products = Products({name: lambda output=output: store.read(output, self._job.path(output))
                              for name, output in outputs.items()})
         self._show(*later_page(products, self._card(), ahead))

@@ -115,6 +115,9 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
         pace = Pace(job, getattr(work, "workers", 1))
         computed = job.execute(context, first, last, frozenset(force), partial(_report, early, pace),
                                lambda: _open(early, pace, job.plan(first, last, frozenset(force))))
+    except KeyboardInterrupt:       # nobody waits for a long task
+        work.stop()
+        raise
     finally:
         work.close()
     if not computed:

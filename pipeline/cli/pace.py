@@ -9,12 +9,13 @@ import json
 import os
 import time
 from contextlib import suppress
+from functools import cached_property
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
 from pipeline.case_models.early.memory import peak_memory
-from pipeline.case_models.early.reference_pace import Reference, measured
+from pipeline.case_models.early.reference_pace import NEAR, Reference, measured
 from pipeline.case_models.early.work import work
 from pipeline.environment import user_folder
 from pipeline.physics.numerics.memory import available_memory
@@ -23,8 +24,6 @@ from pipeline.physics.numerics.memory import available_memory
 _KEPT, _SHORTEST = 5, 0.5
 #: measures within this factor are those of the same case: their notes count before all others
 _SAME = 1.1
-#: measures that differ by more say nothing of each other
-_NEAR = 10.0
 #: shorter runs are not forecast (s)
 _WORTH_TELLING = 20.0
 #: stages that take most of a run
@@ -49,17 +48,26 @@ class Pace:
     def __init__(self, job, workers, folder=None):
         """``job``: a ChainRun; ``workers``: its processes; ``folder``: where notes are kept; None: that of the user."""
         self._workers, self._path = workers, (folder or user_folder()) / "pace.json"
-        self._work, self._notes, self._reference = work(job.case.sections), _read(self._path), Reference()
-        self._memory = peak_memory(job.case.sections)
+        self._sections, self._notes = job.case.sections, _read(self._path)
         self.begin()
+
+    @cached_property
+    def _work(self):
+        return work(self._sections)
+
+    @cached_property
+    def _reference(self):
+        return Reference()
 
     def short_of_memory(self, states):
         """A sentence where the planned ``states`` may need more memory than is available; else ''."""
         available = available_memory()
-        if available is None or self._memory <= available or not any(
-                state.reasons for state in states if state.stage.name in _LARGE):
+        if available is None or not any(state.reasons for state in states if state.stage.name in _LARGE):
             return ""
-        return (f"warning: expected {self._memory / 1e9:.2g} GB of memory for this model, found"
+        expected = peak_memory(self._sections)
+        if expected <= available:
+            return ""
+        return (f"warning: expected {expected / 1e9:.2g} GB of memory for this model, found"
                 f" {available / 1e9:.2g} GB available; use a coarser mesh or state fewer convergence.refinements: a"
                 " stage that does not fit ends before its factors are made")
 
@@ -136,7 +144,7 @@ class Pace:
 
 def _scaled(notes, size):
     """Seconds for a ``size`` of work: median of the notes of this size, or of near ones in proportion."""
-    notes = [note for note in notes if 1 / _NEAR < note.work / size < _NEAR]
+    notes = [note for note in notes if 1 / NEAR < note.work / size < NEAR]
     same = [note for note in notes if 1 / _SAME < note.work / size < _SAME]
     seconds = [note.seconds * size / note.work for note in same or notes]
     return median(seconds) if seconds else None

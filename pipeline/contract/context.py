@@ -50,8 +50,11 @@ class Context:
                 progress.advance()
         return results
 
-    def begin(self, function, item):
-        """Begin ``function(item)`` in another process, if one can be spared: a Future of it, else None."""
+    @property
+    def spares(self):
+        """Whether a process can be spared for one long task; then ``begin(function, item)`` gives the Future of it and
+        of its CPU seconds."""
+        return False
 
     @property
     def sees_files(self):

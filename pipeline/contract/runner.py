@@ -252,8 +252,7 @@ class ChainRun:
         try:
             for stage in stages:
                 computed += tasks.gather(stage)
-                state = self._forced(self.state(stage), force)
-                if not (stage.alone and state.reasons and tasks.begin(state)):
+                if not (stage.alone and context.spares and tasks.begin(self._forced(self.state(stage), force))):
                     computed += self._bring(stage, context, force, report)
         except BrakechainError:     # what is under way is kept, as if it had come first
             with suppress(BrakechainError):

@@ -2,14 +2,12 @@
 
 import math
 
+from pipeline.case_models.bodies.other_meshes import COUNTS
+
 CONTACT, PAD_MESH, DISC_MESH, CALIPER_MESH, BRACKET_MESH, PISTON_MESH, BASES = REFINEMENTS = (
     "contact", "pad_mesh", "disc_mesh", "caliper_mesh", "bracket_mesh", "piston_mesh", "bases")
 #: refinement of meshes -> section of the brake
 PARTS = {PAD_MESH: "pad", DISC_MESH: "disc", CALIPER_MESH: "caliper", BRACKET_MESH: "bracket", PISTON_MESH: "piston"}
-#: settings of a part that count elements
-_COUNTS = {"pad": ("cells_per_patch", "lining_layers"), "disc": ("web_cells", "ring_cells", "angular_cells"),
-           "caliper": ("radial_cells", "angular_cells", "housing_cells", "bridge_cells"), "bracket": ("corner_cells",),
-           "piston": ("angular_cells",)}
 #: elements around a piston come in multiples of this
 _AROUND_PISTON = 4
 FILE, UNASKED = "comes from a file", "was not asked for"
@@ -39,7 +37,7 @@ def finer(brake, names, factor, contact_points=None):
     for name in names:
         if name in PARTS:
             part = getattr(brake, PARTS[name])
-            more = {count: math.ceil(factor * getattr(part, count)) for count in _COUNTS[PARTS[name]]}
+            more = {count: math.ceil(factor * getattr(part, count)) for count in COUNTS[PARTS[name]]}
             if hasattr(part, "element_size"):
                 more["element_size"] = part.element_size / factor
             if name == PISTON_MESH:

@@ -35,7 +35,7 @@ def _check_certificates(address):
 class DaskCluster:
     """The workers of the Dask scheduler at ``address``; all must run the same brakechain as this process."""
 
-    sees_files = False
+    sees_files = spares = False
 
     def __init__(self, address):
         self.spent_elsewhere, self._code, self._address = 0.0, project_digest(), address
@@ -97,9 +97,6 @@ class DaskCluster:
         except BaseException:
             self._client.cancel(futures)
             raise
-
-    def begin(self, function, item):
-        """Long tasks run here."""
 
     def _finished(self, futures):
         """The futures as they finish. Tasks of a lost worker go to the others; BrakechainError where none is left."""

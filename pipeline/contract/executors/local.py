@@ -52,6 +52,7 @@ class InProcess:
 
     spent_elsewhere = 0.0   # CPU seconds of tasks in other processes
     sees_files = True       # tasks read and write files of this machine
+    spares = False          # a process for one long task
 
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""
@@ -61,11 +62,10 @@ class InProcess:
             done()
         return results
 
-    def begin(self, function, item):
-        """There is no other process."""
-
     def close(self):
         """Nothing to release."""
+
+    stop = close
 
 
 def killed():
@@ -104,9 +104,13 @@ class LocalProcesses:
         future.add_done_callback(lambda _: self._lender.take_back(task))
         return future
 
+    @property
+    def spares(self):
+        return self.workers > 1
+
     def begin(self, function, item):
-        """A Future of (``function(item)``, its CPU seconds), which takes one of several processes; else None."""
-        return self._submit(function, item) if self.workers > 1 else None
+        """A Future of (``function(item)``, its CPU seconds), which takes one of several processes."""
+        return self._submit(function, item)
 
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""

@@ -6,7 +6,6 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 
 from pipeline.contract.context import CaseSummary, Context
-from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.executors.local import killed
 
 
@@ -22,12 +21,11 @@ class Work:
 
 @dataclass(frozen=True)
 class Made:
-    """The product of a stage, what it told, and the seconds that it took by the clock and of the processor."""
+    """The product of a stage, what it told, and the seconds that it took by the clock."""
 
     output: object
     told: tuple
     wall: float
-    cpu: float
 
 
 class LongTasks:
@@ -37,12 +35,13 @@ class LongTasks:
         self._run, self._context, self._report, self._begun = run, context, report, []
 
     def begin(self, state: object) -> bool:
-        """Begin with the stage of a ``state``; False where no process can be spared."""
+        """Begin with the stage of a ``state`` if it must run, in a context that spares a process; whether it does."""
+        if not state.reasons:
+            return False
         arguments, current = self._run.arguments(state.stage, self._context)
         work = Work(state.stage, arguments, self._run.solver, self._context.case)
-        if future := self._context.begin(made, work):
-            self._begun.append((state, current, future))
-        return bool(future)
+        self._begun.append((state, current, self._context.begin(made, work)))
+        return True
 
     def gather(self, stage: object = None) -> int:
         """Write the products of those that are done or that ``stage`` may read, of all for None; their number.
@@ -61,12 +60,12 @@ class LongTasks:
 
     def _write(self, state, current, future):
         try:
-            done, _ = future.result()
+            done, cpu = future.result()
         except BrokenProcessPool:
             raise killed() from None
         for line in done.told:
             self._context.log(line)
-        self._run.publish(state.stage, done.output, current, done.wall, done.cpu)
+        self._run.publish(state.stage, done.output, current, done.wall, cpu)
         self._report(state, done.wall)
 
 
@@ -82,6 +81,6 @@ class _Telling(Context):
 
 def made(work: Work) -> Made:
     """The Work done, in whatever process this is."""
-    context, wall, cpu = _Telling(work.solver, work.case), time.perf_counter(), cpu_seconds()
+    context, begin = _Telling(work.solver, work.case), time.perf_counter()
     output = work.stage(**work.arguments, context=context)
-    return Made(output, tuple(context.lines), time.perf_counter() - wall, cpu_seconds() - cpu)
+    return Made(output, tuple(context.lines), time.perf_counter() - begin)

@@ -145,12 +145,12 @@ def _operator(mass, damping, stiffness, s, beside, x=None):
     if settles:
         answer, push = 1 / (s + beside.decay), beside.push
         heard = beside.by_place + s * beside.by_speed
-    if x is None and mass.ndim == 1:
-        whole = s * damping + stiffness
-        whole[np.diag_indices(len(mass))] += s**2 * mass
-    elif x is None:
-        whole = s**2 * mass + s * damping + stiffness
     if x is None:
+        if mass.ndim == 1:
+            whole = s * damping + stiffness
+            whole[np.diag_indices(len(mass))] += s**2 * mass
+        else:
+            whole = s**2 * mass + s * damping + stiffness
         return (whole - (push * answer) @ heard if settles else whole), None
     inertia, drag = product(mass, x), product(damping, x)
     operator, slope = s**2 * inertia + s * drag + product(stiffness, x), 2 * s * inertia + drag

@@ -17,12 +17,25 @@ class Balance(NamedTuple):
     error: float
 
 
+class _Dense(NamedTuple):
+    """The derivative ``whole`` (n, n)."""
+
+    whole: np.ndarray
+
+    def solved(self, miss):
+        return np.linalg.solve(self.whole, miss)
+
+    def rounding(self, step, miss):
+        return np.finfo(float).eps * np.linalg.norm(self.whole) * np.linalg.norm(step)
+
+
 class LowRank(NamedTuple):
     """The derivative 1 - ``left`` (n, r) ``right`` (r, n), r being less than n."""
 
     left: np.ndarray
     right: np.ndarray
 
+    @property
     def whole(self):
         return np.eye(len(self.left)) - self.left @ self.right
 
@@ -60,13 +73,11 @@ def damped_newton(equation, start, size, tolerance, steps, halvings):
 
 def _step(derivative, miss):
     """(Step (n,), whether it follows from the ``derivative``, (n, n) or LowRank, beyond its rounding)."""
-    low_rank = isinstance(derivative, LowRank)
+    derivative = derivative if isinstance(derivative, LowRank) else _Dense(derivative)
     try:
-        step = derivative.solved(miss) if low_rank else np.linalg.solve(derivative, miss)
-        rounding = derivative.rounding(step, miss) if low_rank else (
-            np.finfo(float).eps * np.linalg.norm(derivative) * np.linalg.norm(step))
-        if rounding <= _UNSOUND * np.linalg.norm(miss):
+        step = derivative.solved(miss)
+        if derivative.rounding(step, miss) <= _UNSOUND * np.linalg.norm(miss):
             return step, True
     except np.linalg.LinAlgError:
         pass
-    return np.linalg.lstsq(derivative.whole() if low_rank else derivative, miss, rcond=_SINGULAR)[0], False
+    return np.linalg.lstsq(derivative.whole, miss, rcond=_SINGULAR)[0], False

@@ -6,8 +6,6 @@ import scipy
 #: fewest draws of a bin of the first-order index, and most bins
 _PER_BIN, _MOST_BINS = 20, 20
 _RESAMPLES = 200
-#: standard deviations to each side of 95 % of a normal distribution
-_SIDES = 1.959963984540054
 
 
 def rate_interval(hits, count):
@@ -21,8 +19,9 @@ def rate_interval(hits, count):
 def draws_needed(hits, count, within):
     """Least number of draws, no less than the ``count`` (above 0) that had so many ``hits``, at which half the width of
     the 95 % interval of the same rate is no more than ``within`` (above 0)."""
-    rate, more = hits / count, np.arange(count, count + int((_SIDES / within) ** 2) + 2)
-    half = _SIDES * np.sqrt(rate * (1 - rate) / more + (_SIDES / (2 * more)) ** 2) / (1 + _SIDES**2 / more)
+    sides = scipy.special.ndtri(0.975)      # standard deviations to each side of 95 %
+    rate, more = hits / count, np.arange(count, count + int((sides / within) ** 2) + 2)
+    half = sides * np.sqrt(rate * (1 - rate) / more + (sides / (2 * more)) ** 2) / (1 + sides**2 / more)
     return int(more[np.argmax(half <= within)])
 
 

@@ -1,13 +1,17 @@
 """A long stage runs beside those that do not read it: the same product, none lost, errors told."""
 
+import time
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 
 import pytest
+from click.testing import CliRunner
 
 from pipeline.cli.console import Bars, RunContext
+from pipeline.cli.main import cli
 from pipeline.contract import Context, ConvergenceError, case, runner, store
 from pipeline.contract.executors import choose, run_task
+from tests.commands import ROOT
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Compared, Doubled
 
@@ -28,6 +32,7 @@ class Beside(Context):
     """A context with a process to spare."""
 
     told: list = field(default_factory=list)
+    spares = True
 
     def begin(self, function, item):
         return Late(function, item)
@@ -86,3 +91,16 @@ def test_a_process_of_its_own_gives_the_same(job):
     finally:
         work.close()
     assert (store.read(Doubled, job("beside").folder / "doubled.h5").signal == 2000.0).all()
+
+
+def test_nobody_waits_for_it_after_an_interrupt(monkeypatch):
+    """The command would end with the task otherwise, after ten minutes."""
+    begun = []
+
+    def execute(run, context, *_):
+        begun.append(context.begin(time.sleep, 600.0))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(runner.ChainRun, "execute", execute)
+    assert CliRunner().invoke(cli, ["run", str(ROOT / "configs" / "belt.yaml"), "--workers", "2"]).exit_code == 1
+    assert begun[0].done()
