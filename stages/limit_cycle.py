@@ -47,7 +47,8 @@ class Settings(Section):
     solver: Literal[COMPILED, EXUDYN] = option(
         COMPILED, "what integrates: exponential steps in compiled code, or explicit Runge-Kutta steps of exudyn, on the"
         " same forces")
-    patch: int = option(12, "contacts that move together, at most", ge=1)
+    patch: int = option(12, "contacts that move together, at most, as long as 'patches' are enough", ge=1)
+    patches: int = option(64, "patches of a face at most: a finer mesh of the lining has no more of them", ge=1)
     stick_speed: Quantity("m/s", gt=0) = option("0.1 m/s", "slip below which friction is regularised; creep replaces"
                                                 " sticking")
     smallest_correction: float = option(
@@ -85,9 +86,9 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     Method:
     The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}
     (solver: {solver}; compiled code does the linear part exactly), roots that grow or nearly do being those of the
-    complex modes; contact laws and friction at patches of at most {patch} contacts. Modes above those of the complex
-    modes have a damping ratio of at least {damping_above}. The motion lasted {duration}, levels are root mean squares
-    over {window}. Where a motion outgrew all bounds, steps were halved.
+    complex modes; contact laws and friction at patches of at most {patch} contacts, or {patches} of a face. Modes
+    above those of the complex modes have a damping ratio of at least {damping_above}. The motion lasted {duration},
+    levels are root mean squares over {window}. Where a motion outgrew all bounds, steps were halved.
     """
     for halved in range(_HALVINGS):
         shorter = settings.model_copy(update={"step": settings.step / 2**halved})
@@ -197,7 +198,7 @@ def _system(point, model, friction_map, modes, terms, given, settings):
                           centrifugal=linear.centrifugal)
     return sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
                           whole.with_roots(root, reduced).damped_above(limit, settings.damping_above),
-                          model.contact_body, settings.patch, settings.stick_speed)
+                          model.contact_body, (settings.patch, settings.patches), settings.stick_speed)
 
 
 def _roots(point, modes, linear):
@@ -223,8 +224,9 @@ def _cycle(system, start, sensor_rows, settings, book=True):
         levels.append(np.sqrt((velocity**2).mean(axis=1)))
         if not levels[-1].max(initial=0.0) < _UNBOUNDED:
             raise _OutOfBounds("limit_cycle", "a motion that contact limits", f"{levels[-1].max():.3g} m/s after"
-                               f" {(number + 1) * settings.window:.3g} s", "lower limit_cycle.patch, so that more"
-                               f" patches see the motion, or limit_cycle.step below {settings.step:.3g} s")
+                               f" {(number + 1) * settings.window:.3g} s", "lower limit_cycle.patch and raise"
+                               " limit_cycle.patches, so that more patches see the motion, or lower limit_cycle.step"
+                               f" below {settings.step:.3g} s")
         opened.append(run.open.mean())
         stuck.append(run.stick.mean())
         signals.append(velocity)
@@ -293,7 +295,8 @@ def _checks(points, modes, settings):
     if not (len(points) and settings.checks):
         return {}, 0
     growth = [modes.unstable_root.real[modes.unstable_operating == point].max() for point in points]
-    finer = {STEP: {"step": settings.step / 2}, PATCHES: {"patch": max(settings.patch // 2, 1)},
+    finer = {STEP: {"step": settings.step / 2},
+             PATCHES: {"patch": max(settings.patch // 2, 1), "patches": 2 * settings.patches},
              STICK: {"stick_speed": settings.stick_speed / 2},
              MODES: {"smallest_correction": settings.smallest_correction / 2}}
     return {name: settings.model_copy(update=finer[name]) for name in settings.checks}, int(np.argmax(growth))

@@ -71,7 +71,7 @@ def _moving(small, grown):
                           settings.smallest_correction, friction_damping=linear.friction_damping)
     system = sliding_motion(about, steady.contact.closure, friction, case.bench.law,
                             whole.damped_above(linear.frequency_max, settings.damping_above), model.contact_body,
-                            PATCH, settings.stick_speed)
+                            (PATCH, settings.patches), settings.stick_speed)
     start = np.zeros(len(system.modes.root), complex)
     growing = system.modes.growing()
     start[growing] = 0.5 * system.reach[growing]

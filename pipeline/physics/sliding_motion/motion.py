@@ -162,15 +162,15 @@ class SlidingMotion:
         return self.patches.scale / np.maximum(largest, np.finfo(float).tiny)
 
 
-def sliding_motion(model, closure, friction, law, modes, group, largest, stick_speed):
+def sliding_motion(model, closure, friction, law, modes, group, size, stick_speed):
     """SlidingMotion of a SlidingModel linearised about its contacts.
 
     ``closure`` (c,) m in steady sliding; ``friction``: Friction of the contacts, without states; ``law``: Table;
-    ``modes``: SlidingModes; ``group`` (c,) number of the face of each contact, ``largest`` number of contacts in a
-    patch; ``stick_speed`` m/s.
+    ``modes``: SlidingModes; ``group`` (c,) number of the face of each contact, ``size`` (contacts in a patch at
+    most, patches of a face at most): see ``contact_patches``; ``stick_speed`` m/s.
     """
     contacts = model.contacts
-    patches = contact_patches(contacts.position, contacts.stiffness, group, largest)
+    patches = contact_patches(contacts.position, contacts.stiffness, group, *size)
     rows = np.vstack([patches.mean @ (each @ modes.basis)
                       for each in (contacts.normal, contacts.tangent, contacts.lateral)])
     position, force = modes.weight * (rows @ modes.right), rows @ modes.left

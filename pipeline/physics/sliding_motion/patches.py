@@ -5,6 +5,7 @@ resultant and moment; each of its contacts keeps its closure, area and law, so t
 """
 
 from dataclasses import dataclass
+from math import ceil, inf
 
 import numpy as np
 
@@ -26,13 +27,15 @@ class Patches:
         return np.add.reduceat(values[self.member], self.first[:-1])
 
 
-def contact_patches(position, stiffness, group, largest):
-    """Patches of at most ``largest`` contacts at ``position`` (c, 3) m, each within one ``group`` (c,).
+def contact_patches(position, stiffness, group, largest, most=inf):
+    """Patches of at most ``largest`` contacts at ``position`` (c, 3) m, of more where a ``group`` (c,) would have more
+    than ``most`` of them; each within one.
 
     ``stiffness`` (c,) N/m weighs the contacts of a patch; each face is halved across its longer side until its parts
     are small enough.
     """
-    members = [part for g in np.unique(group) for part in _halved(position, np.flatnonzero(group == g), largest)]
+    faces = (np.flatnonzero(group == g) for g in np.unique(group))
+    members = [part for face in faces for part in _halved(position, face, max(largest, ceil(len(face) / most)))]
     first = np.concatenate(([0], np.cumsum([len(part) for part in members])))
     weight = np.maximum(stiffness, _OPEN * stiffness.max(initial=0.0) or 1.0)
     mean = np.zeros((len(members), len(position)))

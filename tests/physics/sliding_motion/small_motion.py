@@ -1,6 +1,7 @@
 """A sliding system of twelve coordinates and five contacts, and its contact forces as the laws are written down."""
 
 from functools import partial
+from math import inf
 
 import numpy as np
 
@@ -27,7 +28,7 @@ def sliding(model, law=LAW, friction=None, load=LOAD, patch=1, damped=0.0):
     modes = sliding_modes(about, state.friction, BELOW, 1e-12)
     modes = modes.damped_above(np.median(abs(modes.root)) / (2 * np.pi), damped) if damped else modes
     return about, sliding_motion(about, state.contact.closure, friction, Table(*law, SETTLING), modes,
-                                 np.zeros(len(model.contacts.area), int), patch, STICK)
+                                 np.zeros(len(model.contacts.area), int), (patch, inf), STICK)
 
 
 def contact_force(model, law, friction, place, velocity):

@@ -24,6 +24,14 @@ def test_every_contact_is_in_one_small_patch_of_its_face(face, largest):
     assert np.diff(patches.first).max() > largest / 2 - 1
 
 
+def test_a_finer_mesh_of_a_face_has_no_more_patches(face):
+    position, stiffness, group = face
+    patches = contact_patches(position, stiffness, group, 2, 8)
+    sizes = np.diff(patches.first)
+    assert sizes.max() <= 7 and np.array_equal(np.unique(group[patches.member[patches.first[:-1]]],
+                                                         return_counts=True)[1], [8, 8])
+
+
 def test_a_patch_moves_as_the_mean_of_its_contacts_weighted_by_stiffness(face):
     position, stiffness, group = face
     patches = contact_patches(position, stiffness, group, 9)
