@@ -195,7 +195,7 @@ def _misfit_held_out(problem, budget, null, weights, uncertainty):
     latent = with_own_parameters(problem, noises, null.hypothesis, null.latent, runs)
     there = linearised(problem, noises, null.hypothesis, latent, runs)
     jacobian, residual = np.concatenate(there.jacobians), np.concatenate(there.residuals)
-    left = orthogonal(residual, jacobian, np.linalg.inv(null.covariance(weights)))
+    left = orthogonal(residual, jacobian, null.precision(weights))
     return _misfit(there.noises, there.residuals, residual @ left, uncertainty)
 
 

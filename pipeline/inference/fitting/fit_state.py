@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError
 from pipeline.inference.fitting.effective_sample_size import tempering
+from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.priors import LATENT_LIMIT
 
 #: forward-difference step in latent coordinates
@@ -88,7 +89,7 @@ class Fit:
     def promised(self):
         """Decrease of the objective that the slopes still promise."""
         gradient, hessian = self.slopes
-        return float(gradient @ np.linalg.solve(hessian, gradient))
+        return float(gradient @ solved(hessian, gradient))
 
     def ended(self, explained, fraction):
         """Whether it converged, or its slopes promise less than a ``fraction`` of what it ``explained``."""
@@ -120,7 +121,11 @@ class Fit:
 
     def covariance(self, weights=None):
         """Posterior covariance (k, k) of the latent coordinates, runs weighted (see ``effective.tempering``)."""
-        return np.linalg.inv(_information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent)))
+        return inverse(self.precision(weights))
+
+    def precision(self, weights=None):
+        """The inverse of ``covariance``."""
+        return _information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent))
 
     def spread(self, weights=None):
         """{name: standard deviation} of the values, by the slope of each prior's transform."""
@@ -178,7 +183,7 @@ def orthogonal(residual, jacobian, prior_precision=None):
     sqrt(g'C^-1 g) is standard normal for every direction g where nothing else is missing.
     """
     precision = np.eye(jacobian.shape[1]) if prior_precision is None else prior_precision
-    return residual - jacobian @ np.linalg.solve(jacobian.T @ jacobian + precision, jacobian.T @ residual)
+    return residual - jacobian @ solved(jacobian.T @ jacobian + precision, jacobian.T @ residual)
 
 
 def from_prior_mean(fit):
