@@ -72,6 +72,9 @@ class DiagnosisProblem:
     motions: Motions | None = None
     step: float = 0.0
 
+    def __post_init__(self):
+        object.__setattr__(self, "problem", self.problem.for_all(self.candidates))
+
     @property
     def rules(self):
         return self.settings.rules

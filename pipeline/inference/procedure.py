@@ -40,7 +40,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     named law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the
     nominal model has no fit.
     """
-    settings = settings or Settings()
+    settings, problem = settings or Settings(), problem.for_all(catalogue)
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out)
     _, single = asked.steps()
     if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing"):

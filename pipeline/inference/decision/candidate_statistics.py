@@ -22,7 +22,7 @@ def held_out_gains(problem, budget, null, fits, posterior, rules):
         return dict.fromkeys(fits, (None, None))
     noises, share = tuple(budget[run.name] for run in runs), rules.decision.start_share
     reference, gains = held_out_residuals(problem, noises, null, runs, share), {}
-    rest = judged(null.hypothesis, noises, runs, share)
+    rest = judged(problem, noises, runs, share)
     for i, fit in fits.items():
         try:
             gains[i] = gain(rest, reference, held_out_residuals(problem, noises, fit, runs, share))
