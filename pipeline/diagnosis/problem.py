@@ -9,8 +9,14 @@ from pipeline.inference.problem import Hypothesis, Motions, Problem
 from pipeline.inference.procedure import diagnose
 
 
+class LocatedAxes(dict):
+    """{axis: ...} of a Locator, with ``failures``: a sentence for each axis that could not be computed."""
+
+    failures = ()
+
+
 class Locator(Protocol):
-    """Where the mismatch lies: {axis: (Location, unit of its bins or "", edges (n, 2) or None)}."""
+    """Where the mismatch lies: {axis: (Location, unit of its bins or "", edges (n, 2) or None)}, or LocatedAxes."""
 
     def located(self, diagnosis: Diagnosis) -> dict: ...
 

@@ -8,13 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError
+from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError, sentence_of
 from pipeline.inference.fitting.effective_sample_size import tempering
 from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.priors import LATENT_LIMIT
 
 #: forward-difference step in latent coordinates
 DIFFERENCE = 1e-4
+#: predictions beyond which squares are no numbers any more
+_LARGEST = 1e100
 #: noise powers beyond which a residual is far off
 FAR = 100.0
 
@@ -151,10 +153,12 @@ def whitened(problem, noises, hypothesis, latent, runs):
             predicted = np.asarray(problem.predict(hypothesis, values, run), float)
         except BrakechainError as error:
             return None, error
+        except Exception as error:      # what one hypothesis cannot predict says nothing of others
+            return None, ConvergenceError(f"prediction of run {run.name}: {sentence_of(error)}")
         if predicted.shape != run.samples.shape:
             raise ConfigError(f"prediction of run {run.name}", f"channels and samples {run.samples.shape}",
                               str(predicted.shape))
-        if not np.isfinite(predicted).all():
+        if not (np.abs(predicted) < _LARGEST).all():
             return None, ConvergenceError(f"prediction of run {run.name}", "finite numbers", "others")
         residuals.append(noise.whiten(run.samples - predicted))
     return residuals, None
