@@ -81,15 +81,14 @@ def apart(seed, number, longest=_LONGEST):
 
 def main():
     """Parse the command line, run cases, print what failed and a table."""
-    import tests.fuzz.random_benches  # noqa: F401 -- once for all children
-    from pipeline.cli import main as commands  # noqa: F401
-
     parser = argparse.ArgumentParser(prog="make fuzz_diagnosis", description=__doc__.splitlines()[0])
     parser.add_argument("--cases", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
     parser.add_argument("--longest", type=int, default=_LONGEST, help="CPU seconds after which a case is given up")
     options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:       # what all need is loaded once, for all children
+        ran(0, 0, Path(folder))
     counts, slowest = Counter(), 0.0
     for number in range(options.first, options.first + options.cases):
         outcome = apart(options.seed, number, options.longest)

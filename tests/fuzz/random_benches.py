@@ -79,13 +79,16 @@ class Bench:
                     continue
                 clean = motion[self.sensors[sensor]][:, k]
                 size = self.scale.setdefault(sensor, float(np.std(clean)) or 1.0)
-                unit = UNIT[self.sensors[sensor]]
+                unit = self._unit(self.sensors[sensor])
                 channels[sensor] = [clean + self.noise * size * self.rng.standard_normal(length),
-                                    unit.replace("m", "rad", 1) if self.turns else unit, self.sensors[sensor]]
+                                    unit, self.sensors[sensor]]
             if fed is not None:
                 channels["fed"] = [fed, {"base": "m"}.get(self.kind, "N m" if self.turns else "N"), ""]
             self.runs[name] = channels
         self._spoil()
+
+    def _unit(self, quantity):
+        return UNIT[quantity].replace("m", "rad", 1) if self.turns else UNIT[quantity]
 
     def _spoil(self):
         """What should not be: copies, constants, noise alone, lost samples, runs without a channel, other units."""
@@ -94,7 +97,7 @@ class Bench:
             channel = self.runs[run][name]
             if name != "fed" and self._if(0.05):
                 channel[0] = channel[0].copy()
-                channel[0][self.rng.random(len(channel[0])) < self._one(0.02, 0.3, 1.0)] = np.nan
+                channel[0][self.rng.random(len(channel[0])) < self._one(0.02, 0.02, 0.1, 0.3, 0.3, 1.0)] = np.nan
             if self._if(0.02):
                 channel[0] = np.zeros(len(channel[0])) + self._one(0.0, 1.0)
             if self._if(0.02):
@@ -125,8 +128,11 @@ class Bench:
             self.courses[name] = {"at": [f"{t:.3f} s" for t in instants], "speed": [f"{v} m/s" for v in speeds]}
             base = np.maximum(time[:, None] - instants, 0) @ np.diff(speeds, prepend=0.0)
         else:
+            if self.kind == "tap":
+                blow = np.zeros(length)
+                blow[min(4, length - 1):min(7, length)] = level * 0.05 * self.stiffness[-1]
+                return None, self._integrated(time, blow, np.zeros(length), start)
             start = 0.02 * level * self.rng.standard_normal((2, self.size)) * [[1], [2 * np.pi * self.frequency]]
-            start[0] *= self.kind == "free"
         return fed, self._integrated(time, np.zeros(length) if fed is None or base is not None else fed,
                                      np.zeros(length) if base is None else base, start)
 
@@ -165,7 +171,7 @@ class Bench:
     def _case(self):
         case = {"chain": "lumped_bench", "title": "Random", "lumped": self._lumped(), "bench": self._bench(),
                 "recording": {"files": [{"kind": "hdf5", "file": "recording.h5"}]}}
-        if self._if(0.1):
+        if self._if(0.1 if case["bench"].get("forward") != "equation" else 0.03):
             case["effects"] = {"cubic_stiffness": {"spring_0": {"coefficient": "100 N/m^3"}}}
         case["diagnosis"] = self._diagnosis(case["bench"])
         return case
@@ -207,7 +213,8 @@ class Bench:
             bench["blow"] = "hammer"
         if self.kind == "poles":
             bench["poles"] = {"low": f"{0.2 * self.frequency:.4g} Hz", "high": f"{0.45 * self.rate:.4g} Hz"}
-        elif all(q == "displacement" for q in self.sensors.values()) and self._if(0.5):
+        elif (len(self.sensors) == self.size and all(q == "displacement" for q in self.sensors.values())
+              and self._if(0.5 if "inputs" in bench else 0.03)):
             bench["forward"] = "equation"
             if self._if(0.6):
                 bench["equation"] = {"corner": f"{self.rate / self._one(3, 5, 10):.4g} Hz",
@@ -237,18 +244,21 @@ class Bench:
         held_out = self._some(self.names_of_runs, min(2, len(self.names_of_runs) - (not self._if(0.03))))
         asked |= {"held_out": held_out} if held_out and self.kind != "poles" else {}
         noise = {}
-        if self._if(0.8):
+        if self._if(0.92 - 0.5 * bool(self.repeats)):
             std = {c: max(self.noise * self.scale[c], 1e-12) * self._one(1, 1, 1, 0.3, 3) for c in self.sensors}
             if "forward" in bench:
                 std = {f"force on {n}": 0.02 * float(self.stiffness[0]) * self.noise for n in self.names}
-            noise["std"] = {c: float(f"{s:.4g}") for c, s in std.items()}
+            unit = "N m" if self.turns else "N"
+            noise["std"] = {c: f"{s:.4g} {unit if 'forward' in bench else self._unit(self.sensors[c])}"
+                            for c, s in std.items()}
         if self._if(0.1):
             noise["above"] = f"{0.3 * self.rate:.4g} Hz"
         if self._if(0.1):
             noise["levels"] = [0.1, 10.0]
         asked |= {"noise": noise} if noise else {}
         for key, chance, value in (
-                ("solver", 0.4, False), ("seed", 0.1, 3), ("latent_force", 0.15, {"predict": True}),
+                ("solver", 0.4, False), ("seed", 0.1, 3),
+                ("latent_force", 0.3 if "held_out" in asked and "forward" not in bench else 0.01, {"predict": True}),
                 ("without", 0.1, ["lugre"]), ("places", 0.1, ["spring_0"]), ("kept", 0.05, 8),
                 ("priors", 0.1, {"coulomb.force": {"prior": "half_normal", "std": "1 N"}}),
                 ("next", 0.15, {"joints.spring_0.stiffness": [2.0]}),
@@ -260,7 +270,7 @@ class Bench:
     def _prior(self, name):
         if name.endswith("offset"):
             return {"prior": "normal", "std": "0.1 N m" if self.turns else "0.1 N"}
-        return {"spread": float(self._one(0.02, 0.2, 1.0))} if self._if(0.9) else {
+        return {"spread": float(self._one(0.02, 0.2, 1.0))} if not name.endswith("gain") or self._if(0.5) else {
             "prior": "uniform", "low": 0.5, "high": 2.0}
 
     def write(self, folder):
