@@ -60,7 +60,7 @@ class Bench:
         return [str(each) for each in self.rng.permutation(list(items))[:count]]
 
     def _length(self):
-        return int(self.rng.integers(4, 40) if self._if(0.08) else self.rng.integers(60, 400))
+        return int(self.rng.integers(4, 40) if self._if(0.08) else self.rng.integers(50, 250))
 
     # ---- the recording
 
@@ -238,7 +238,7 @@ class Bench:
         if self.kind == "force":
             names += ["inputs.push.offset", "inputs.push.gain"]
         asked = {"parameters": {name: self._prior(name) for name in self._some(names, 4)}, "kept": self._one(1, 2),
-                 "draws": 200, "effects": [*self._some(JOINT, 3), *self._some(OTHER, 1)] or ["coulomb"]}
+                 "draws": 200, "effects": [*self._some(JOINT, 2), *self._some(OTHER, 1)] or ["coulomb"]}
         if self.kind == "poles":
             asked |= {"forward": "poles"}
         held_out = self._some(self.names_of_runs, min(2, len(self.names_of_runs) - (not self._if(0.03))))
