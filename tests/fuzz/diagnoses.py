@@ -42,10 +42,13 @@ def ran(seed, number, folder):
     """(kind, said) of random bench ``number``, run in this process in an empty ``folder``."""
     from tests.commands import brakechain
     from tests.fuzz.random_benches import Bench
+    from tests.readers import in_this_process
 
     Bench([seed, number]).write(folder)
     last = [] if number % _WITH_PAGE == 0 else ["--until", "diagnosis"]
-    done = brakechain("run", folder / "case.yaml", "--run", folder / "run", "--workers", 1, *last, code=None)
+    with in_this_process():
+        done = brakechain("run", folder / "case.yaml", "--run", folder / "run", "--workers", 1, *last,
+                          code=None)
     printed = done.stdout + done.stderr
     if "internal error" in printed or "Traceback" in printed:
         return "internal", printed[-1500:]

@@ -60,7 +60,7 @@ class Bench:
         return [str(each) for each in self.rng.permutation(list(items))[:count]]
 
     def _length(self):
-        return int(self.rng.integers(4, 40) if self._if(0.08) else self.rng.integers(50, 250))
+        return int(self.rng.integers(*self._one((4, 40), *[(40, 120)] * 7, (120, 300))))
 
     # ---- the recording
 
@@ -97,7 +97,7 @@ class Bench:
             channel = self.runs[run][name]
             if name != "fed" and self._if(0.05):
                 channel[0] = channel[0].copy()
-                channel[0][self.rng.random(len(channel[0])) < self._one(0.02, 0.02, 0.1, 0.3, 0.3, 1.0)] = np.nan
+                channel[0][self.rng.random(len(channel[0])) < self._one(0.02, 0.02, 0.1, 0.3, 0.3, 0.8)] = np.nan
             if self._if(0.02):
                 channel[0] = np.zeros(len(channel[0])) + self._one(0.0, 1.0)
             if self._if(0.02):
@@ -237,7 +237,7 @@ class Bench:
                  *(f"masses.{n}" for n in self.names), *(f"channels.{c}.gain" for c in self.sensors)]
         if self.kind == "force":
             names += ["inputs.push.offset", "inputs.push.gain"]
-        asked = {"parameters": {name: self._prior(name) for name in self._some(names, 4)}, "kept": self._one(1, 2),
+        asked = {"parameters": {name: self._prior(name) for name in self._some(names, 3)}, "kept": self._one(1, 1, 2),
                  "draws": 200, "effects": [*self._some(JOINT, 2), *self._some(OTHER, 1)] or ["coulomb"]}
         if self.kind == "poles":
             asked |= {"forward": "poles"}
@@ -259,7 +259,7 @@ class Bench:
         for key, chance, value in (
                 ("solver", 0.4, False), ("seed", 0.1, 3),
                 ("latent_force", 0.3 if "held_out" in asked and "forward" not in bench else 0.01, {"predict": True}),
-                ("without", 0.1, ["lugre"]), ("places", 0.1, ["spring_0"]), ("kept", 0.05, 8),
+                ("without", 0.1, ["lugre"]), ("places", 0.1, ["spring_0"]), ("kept", 0.02, 8),
                 ("priors", 0.1, {"coulomb.force": {"prior": "half_normal", "std": "1 N"}}),
                 ("next", 0.15, {"joints.spring_0.stiffness": [2.0]}),
                 ("plan", 0.05, {"runs": {"p": {"duration": "1 s", "sample_rate": f"{self.rate:g} Hz"}}})):
