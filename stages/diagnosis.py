@@ -10,7 +10,7 @@ from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
 from pipeline.contract.errors import sentence_of
 from pipeline.diagnosis.force_balance import force_balance_problem
-from pipeline.diagnosis.forced_response import forced_problem
+from pipeline.diagnosis.forced_response import check_names, forced_problem
 from pipeline.diagnosis.output.files import companions
 from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.output.unsolved import unsolved
@@ -20,6 +20,7 @@ from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.start_states import started
 from pipeline.diagnosis.signals.substitution import substituted
+from pipeline.diagnosis.signals.usable_runs import without
 from pipeline.products import (
     Bench,
     ComplexModes,
@@ -122,7 +123,10 @@ def _of_signals(inputs, settings, context):
     runs = recorded(inputs.recording, rig, inputs.model)
     if rig.forward == "equation":
         return force_balance_problem(bench, runs, settings, rig.equation)
-    return substituted(forced_problem(bench, started(bench, runs, rig), settings), inputs.recording, settings)
+    check_names("held_out", settings.held_out, runs)
+    runs = started(bench, runs, rig, refused := {})
+    return substituted(forced_problem(bench, runs, without(settings, refused), tuple(refused.values())),
+                       inputs.recording, settings)
 
 
 def _bench(inputs, settings):

@@ -60,7 +60,7 @@ class DiagnosisProblem:
     ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
     what is changed, each with its budget. ``noise_levels``: multiples of the noise at which the verdict is told too.
     ``motions``: measured ones of all coordinates, along which several laws are selected. ``step``: time step of the
-    model in s, 0 where it does not step through time.
+    model in s, 0 where it does not step through time. ``remarks``: sentences on what could not be used of the case.
     """
 
     problem: Problem
@@ -77,6 +77,7 @@ class DiagnosisProblem:
     noise_levels: tuple = ()
     motions: Motions | None = None
     step: float = 0.0
+    remarks: tuple = ()
 
     def __post_init__(self):
         object.__setattr__(self, "problem", self.problem.for_all(self.candidates))

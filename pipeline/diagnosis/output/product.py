@@ -47,7 +47,8 @@ def product(problem, diagnosis, contacts=None):
     further = attempt("the next experiment", next_experiment, problem, diagnosis, otherwise=NOTHING)
     result = Diagnosis(
         verdict=diagnosis.decision.verdict, other_machine="",
-        reason=[*diagnosis.decision.reasons, *short(runs, problem.budget), *attempt.failures],
+        reason=[*diagnosis.decision.reasons, *problem.remarks, *short(runs, problem.budget),
+                *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
         **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
         **_levels(levels), left_floors=left.floors, left_sentence=left.sentence,

@@ -101,7 +101,8 @@ def table(null, every):
 
 
 def _exclusive(candidates):
-    return np.array([[one.excludes(other) for other in candidates] for one in candidates], bool)
+    alike = [[one.excludes(other) for other in candidates] for one in candidates]
+    return np.array(alike, bool).reshape(len(candidates), len(candidates))
 
 
 def best_subsets(of, most=MOST, count=8):
