@@ -12,6 +12,7 @@ from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.diagnosis.features.poles import features, observed, predicted
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.start_states import started
+from pipeline.diagnosis.signals.usable_runs import usable
 from pipeline.products import Bench, BenchRun, BenchStops, Effects, Recording, ReducedModel
 
 
@@ -38,12 +39,14 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     if settings.poles is not None:
         return _of_features(whole, runs, settings, context)
     if settings.forward == "equation":
-        balances = [balance(whole, one, settings.equation) for one in runs.values()]
-        runs = {name: one.seen for name, one in zip(runs, balances, strict=True)}
-        answers = [one.predicted(whole) for one in balances]
+        balances, refused = usable(runs, partial(balance, whole, equation=settings.equation))
+        runs = {name: one.seen for name, one in balances.items()}
+        answers = [one.predicted(whole) for one in balances.values()]
     else:
-        runs = started(whole, runs, settings)
+        runs = started(whole, runs, settings, refused := {})
         answers = context.map(partial(_shown, whole), list(runs.values()), "runs")
+    for why in refused.values():
+        context.log(why)
     results = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
     units = {c: u for one in runs.values() for c, u in zip(one.channels, one.unit, strict=True)}
     for name, one in results.items():

@@ -1,5 +1,6 @@
 """Stage diagnosis: deviations between recordings and model, their location, and the missing physics."""
 
+import logging
 from functools import partial
 from typing import NamedTuple
 
@@ -7,16 +8,19 @@ from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
+from pipeline.contract.errors import sentence_of
 from pipeline.diagnosis.force_balance import force_balance_problem
-from pipeline.diagnosis.forced_response import forced_problem
+from pipeline.diagnosis.forced_response import check_names, forced_problem
 from pipeline.diagnosis.output.files import companions
 from pipeline.diagnosis.output.product import product
+from pipeline.diagnosis.output.unsolved import unsolved
 from pipeline.diagnosis.published_lists import Models, published_problem
 from pipeline.diagnosis.rough_pair import rough_pair_problem
 from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.start_states import started
 from pipeline.diagnosis.signals.substitution import substituted
+from pipeline.diagnosis.signals.usable_runs import without
 from pipeline.products import (
     Bench,
     ComplexModes,
@@ -63,9 +67,20 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     context.log(f"{len(problem.candidates)} hypotheses over {len(problem.problem.training)} runs,"
                 f" {len(problem.problem.held_out)} held out")
     contacts = benches.contact_names(model) if model is not None else {}
-    result = product(problem, problem.solved(context.map), contacts)
+    result = _answered(problem, contacts, context)
     context.log(f"verdict: {result.verdict.item()}")
     return result
+
+
+def _answered(problem, contacts, context):
+    """Product Diagnosis of a DiagnosisProblem; where it cannot be solved, unknown, with what went wrong."""
+    try:
+        return product(problem, problem.solved(context.map), contacts)
+    except Exception as error:
+        logging.getLogger(__name__).debug("the diagnosis", exc_info=error)
+        result = product(*unsolved(problem, error), contacts)
+        context.log(f"the diagnosis failed: {sentence_of(error)}")
+        return result
 
 
 class Inputs(NamedTuple):
@@ -108,7 +123,10 @@ def _of_signals(inputs, settings, context):
     runs = recorded(inputs.recording, rig, inputs.model)
     if rig.forward == "equation":
         return force_balance_problem(bench, runs, settings, rig.equation)
-    return substituted(forced_problem(bench, started(bench, runs, rig), settings), inputs.recording, settings)
+    check_names("held_out", settings.held_out, runs)
+    runs = started(bench, runs, rig, refused := {})
+    return substituted(forced_problem(bench, runs, without(settings, refused), tuple(refused.values())),
+                       inputs.recording, settings)
 
 
 def _bench(inputs, settings):

@@ -1,5 +1,6 @@
 """The command line, derived from the stages. The door of click."""
 
+import logging
 import os
 import sys
 import traceback
@@ -332,6 +333,10 @@ def completion():
 
 def main():
     """Run a command: errors become one sentence and an exit code; --debug shows the traceback."""
+    if "--debug" in sys.argv:
+        log = logging.getLogger("stages")
+        log.setLevel(logging.DEBUG)
+        log.addHandler(logging.StreamHandler())
     try:
         sys.exit(cli(standalone_mode=False))
     except click.exceptions.Exit as stop:

@@ -3,6 +3,10 @@
 Each class has its exit code: 2 for input, 3 for non-convergence, 4 for files.
 """
 
+import traceback
+from functools import wraps
+from pathlib import Path
+
 #: characters of a message, and of each of its parts
 LONGEST, _PART = 2000, 600
 
@@ -46,3 +50,31 @@ class ProductError(BrakechainError):
     """A file or a data product breaks its contract: name, version, unit, shape, finiteness."""
 
     exit_code = 4
+
+
+def sentence_of(error):
+    """An error in one sentence; of one that no user can correct, what and where it is, and whom it concerns."""
+    if isinstance(error, BrakechainError):
+        return str(error)
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [f for f in frames if "pipeline" in Path(f.filename).parts and "site-packages" not in Path(f.filename).parts]
+    where = ""
+    if own or frames:
+        frame = (own or frames)[-1]
+        parts = Path(frame.filename).parts
+        where = f" ({'/'.join(parts[parts.index('pipeline'):] if own else parts[-1:])}:{frame.lineno})"
+    return (f"internal error {type(error).__name__}: {shortened(error, _PART)}{where}; this is a fault of the program,"
+            " please report it with the case")
+
+
+def instead(answer):
+    """Decorator: a function that fails, whatever with, returns ``answer(error, *its arguments)``."""
+    def decorated(function):
+        @wraps(function)
+        def safe(*arguments, **named):
+            try:
+                return function(*arguments, **named)
+            except Exception as error:
+                return answer(error, *arguments, **named)
+        return safe
+    return decorated

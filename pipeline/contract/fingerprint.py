@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pipeline import sources
 from pipeline.contract.received.includes import following
-from pipeline.contract.settings import leaves, statements
+from pipeline.contract.settings import Section, leaves, statements
 from pipeline.sources import digest
 
 
@@ -65,7 +65,7 @@ def _plain(value):
         return [_plain(v) for v in value]
     if isinstance(value, dict):
         return {str(k): _plain(v) for k, v in value.items()}
-    return value
+    return settings_of(value) if isinstance(value, Section) else value
 
 
 def code_of(module):

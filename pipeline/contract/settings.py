@@ -277,9 +277,8 @@ def leaves(section, prefix=""):
         value, key = getattr(section, name), f"{prefix}{name}"
         if isinstance(value, Section):
             yield from leaves(value, f"{key}.")
-        elif isinstance(value, (tuple, list, dict)) and value and all(isinstance(v, Section) for v in _items(value)):
-            for index, item in value.items() if isinstance(value, dict) else enumerate(value):
-                yield from leaves(item, f"{key}.{index}.")
+        elif _of_sections(value):
+            yield from _within_items(value, key)
         else:
             yield Leaf(key, value, _unit(info), info.description or "", idle.get(name, ""))
 
@@ -301,8 +300,17 @@ def declared(cls, steps):
     return info.default, info.description or "", _unit(info)
 
 
-def _items(value):
-    return value.values() if isinstance(value, dict) else value
+def _of_sections(value):
+    """Whether a collection holds sections alone, or such collections."""
+    items = value.values() if isinstance(value, dict) else value
+    return isinstance(value, (tuple, list, dict)) and bool(value) and all(
+        isinstance(item, Section) or _of_sections(item) for item in items)
+
+
+def _within_items(value, key):
+    for index, item in value.items() if isinstance(value, dict) else enumerate(value):
+        yield from leaves(item, f"{key}.{index}.") if isinstance(item, Section) else _within_items(
+            item, f"{key}.{index}")
 
 
 def _unit(info):

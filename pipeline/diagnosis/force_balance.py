@@ -16,6 +16,7 @@ from pipeline.diagnosis.signals.balance_residual import BalanceAxes, DescribeBal
 from pipeline.diagnosis.signals.forward_model import candidates, completed, observed, reach
 from pipeline.diagnosis.signals.localisation import Axes
 from pipeline.diagnosis.signals.measured_motions import shapes
+from pipeline.diagnosis.signals.usable_runs import doubts, usable, without
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
@@ -53,7 +54,8 @@ def force_balance_problem(bench, recorded, settings, equation):
     force does not rise above its noise.
     """
     check_names("held_out", settings.held_out, recorded)
-    balances = {name: balance(bench, record, equation) for name, record in recorded.items()}
+    balances, left_out = usable(recorded, lambda record: balance(bench, record, equation))
+    settings, recorded = without(settings, left_out), {name: recorded[name] for name in balances}
     units = {c: u for b in balances.values() for c, u in zip(b.seen.channels, b.seen.unit, strict=True)}
     noise = stated_noise(settings, units)
     observations = tuple(observed(b.seen, noise, name in settings.held_out) for name, b in balances.items())
@@ -66,11 +68,13 @@ def force_balance_problem(bench, recorded, settings, equation):
         refuse_unforced(name, one.seen.samples, noises[name].std)
     # begun as measured, so that nominal runs have the sizes of the measured ones
     training = [begun(bench, recorded[o.name]) for o in problem.training]
+    refused = []
     effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
-                         reach(bench, training), settings.priors)
+                         reach(bench, training), settings.priors, refused=refused)
     return DiagnosisProblem(
         problem, noises | {p.name: noises[p.like] for p in planned}, effects, units, solver,
         BalanceAxes(channel_names(bench), Axes.under(problem, noises, solver)),
         DescribeBalance(bench, balances, problem, noises, solver.rules, seed=settings.seed),
         settings.latent_force.predict, next_runs=tuple(observed(p.shown.seen) for p in planned),
-        noise_levels=settings.noise.levels, motions=forward)
+        noise_levels=settings.noise.levels, motions=forward,
+        remarks=(*left_out.values(), *doubts(recorded, bench.model.input_name), *refused))

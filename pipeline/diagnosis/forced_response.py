@@ -23,13 +23,16 @@ from pipeline.diagnosis.signals.latent_force import Describe
 from pipeline.diagnosis.signals.localisation import Axes, ForcedAxes
 from pipeline.diagnosis.signals.measured_motions import MeasuredMotions, measured
 from pipeline.diagnosis.signals.start_states import with_starts
+from pipeline.diagnosis.signals.usable_runs import doubts
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
 
-def forced_problem(bench, recorded, settings):
+def forced_problem(bench, recorded, settings, remarks=()):
     """DiagnosisProblem over {name: Recorded} of a Bench. ConfigError for unknown runs, effects, places and parameters.
+
+    ``remarks``: sentences on runs that are left out.
     """
     check_names("held_out", settings.held_out, recorded)
     runs = {name: record.run for name, record in recorded.items()}
@@ -42,8 +45,9 @@ def forced_problem(bench, recorded, settings):
     problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
     for run in planned:     # what the model cannot do is refused before anything is fitted
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
+    refused = []
     effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
-                         reach(bench, training), settings.priors, largest(training))
+                         reach(bench, training), settings.priors, largest(training), refused)
     effects = with_added_starts(bench, effects, recorded)
     problem = replace(problem, nominal=with_starts(problem.nominal, bench, recorded, remembers(bench, effects)))
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
@@ -54,6 +58,7 @@ def forced_problem(bench, recorded, settings):
         Describe(bench, runs, problem, noises, solver.rules, seed=settings.seed), settings.latent_force.predict,
         next_runs=tuple(f.observed for f in planned), noise_levels=settings.noise.levels,
         step=min(run.step(bench.step) for run in runs.values()),
+        remarks=(*remarks, *doubts(recorded, bench.model.input_name), *refused),
         motions=MeasuredMotions(bench, runs, noises) if all(
             measured(bench, o.channels) for o in observations) else None)
 

@@ -9,8 +9,14 @@ from pipeline.inference.problem import Hypothesis, Motions, Problem
 from pipeline.inference.procedure import diagnose
 
 
+class LocatedAxes(dict):
+    """{axis: ...} of a Locator, with ``failures``: a sentence for each axis that could not be computed."""
+
+    failures = ()
+
+
 class Locator(Protocol):
-    """Where the mismatch lies: {axis: (Location, unit of its bins or "", edges (n, 2) or None)}."""
+    """Where the mismatch lies: {axis: (Location, unit of its bins or "", edges (n, 2) or None)}, or LocatedAxes."""
 
     def located(self, diagnosis: Diagnosis) -> dict: ...
 
@@ -54,7 +60,7 @@ class DiagnosisProblem:
     ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
     what is changed, each with its budget. ``noise_levels``: multiples of the noise at which the verdict is told too.
     ``motions``: measured ones of all coordinates, along which several laws are selected. ``step``: time step of the
-    model in s, 0 where it does not step through time.
+    model in s, 0 where it does not step through time. ``remarks``: sentences on what could not be used of the case.
     """
 
     problem: Problem
@@ -71,6 +77,10 @@ class DiagnosisProblem:
     noise_levels: tuple = ()
     motions: Motions | None = None
     step: float = 0.0
+    remarks: tuple = ()
+
+    def __post_init__(self):
+        object.__setattr__(self, "problem", self.problem.for_all(self.candidates))
 
     @property
     def rules(self):

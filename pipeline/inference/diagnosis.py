@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field, replace
 from typing import Optional
 
-from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.decision import several_laws
 from pipeline.inference.decision.decision_rules import Decision
 from pipeline.inference.decision.weighing import Weighing, weigh
@@ -46,6 +45,10 @@ class Diagnosis:
     combinations: tuple = ()
     laws: int = 1
     objected: dict = field(default_factory=dict)
+
+    def remarked(self, *sentences):
+        """The same with further ``sentences`` among the reasons of its decision."""
+        return replace(self, decision=replace(self.decision, reasons=(*self.decision.reasons, *sentences)))
 
     @property
     def nominal(self):
@@ -98,16 +101,17 @@ class Diagnosis:
 
 
 def decided(refits, settings, base, laws=1):
-    """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
-    converged, however often the null begins again."""
+    """Diagnosis of Refits, the last of so many ``laws``; unknown where nothing is missing but nothing converged,
+    however often the null begins again."""
     weighing, decision = _weighed(refits, settings, base and base.null, laws)
     if _rests_on_unfinished(refits, decision):
         refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))
         weighing, decision = _weighed(refits, settings, base and base.null, laws)
     if _rests_on_unfinished(refits, decision):
         null = refits.calibration.null
-        raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
-                               f"none after {null.evaluations} predictions", "check the nominal values and priors")
+        decision = replace(decision, verdict="unknown", named=(), reasons=(
+            f"the fit of {null.hypothesis.name} did not converge after {null.evaluations} predictions, although it"
+            " leaves no more than noise: check the nominal values and priors", *decision.reasons))
     return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
 
 

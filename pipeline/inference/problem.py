@@ -1,7 +1,7 @@
 """What a diagnosis is asked: observed runs, a forward model, the nominal hypothesis and candidates."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -145,11 +145,16 @@ class FanOut(Protocol):
 
 @dataclass(frozen=True)
 class Problem:
-    """Observed ``runs``, the forward model ``predict`` and the ``nominal`` hypothesis."""
+    """Observed ``runs``, the forward model ``predict`` and the ``nominal`` hypothesis.
+
+    ``own`` {run name: number of parameters of that run alone that a hypothesis has at most}, of the nominal one where
+    not given (``for_all``): by it the first part of a held-out run is as long for all that are compared.
+    """
 
     runs: tuple
     predict: ForwardModel
     nominal: Hypothesis
+    own: dict = field(default_factory=dict)
 
     def __post_init__(self):
         names = [run.name for run in self.runs]
@@ -171,6 +176,18 @@ class Problem:
     @property
     def held_out(self):
         return tuple(run for run in self.runs if run.held_out)
+
+    def for_all(self, candidates):
+        """The same problem, its ``own`` those of the nominal hypothesis with that of ``candidates`` that has most."""
+        def count(hypothesis, run):
+            return sum(p.run == run.name for p in hypothesis.parameters)
+
+        return replace(self, own={run.name: max((count(c, run) for c in candidates), default=0)
+                                  + count(self.nominal, run) for run in self.runs} | self.own)
+
+    def own_parameters(self, run):
+        """How many parameters of ``run`` alone there are to fit."""
+        return self.own.get(run.name, sum(p.run == run.name for p in self.nominal.parameters))
 
     def given(self, candidate):
         """The same problem with ``candidate`` taken as known: its effects and parameters join the nominal ones."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ConvergenceError
+from pipeline.contract.errors import BrakechainError, instead, sentence_of
 from pipeline.inference import several
 from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
@@ -40,13 +40,17 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     named law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the
     nominal model has no fit.
     """
-    settings = settings or Settings()
+    settings, problem = settings or Settings(), problem.for_all(catalogue)
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out)
     _, single = asked.steps()
-    if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing"):
-        single = asked.along(single, motions) if motions else asked.by_the_screen(asked.pairs(single, asked.catalogue))
-    if settings.tied_seconds and single.decision.verdict == "unknown":
-        return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
+    try:
+        if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing"):
+            single = (asked.along(single, motions) if motions else
+                      asked.by_the_screen(asked.pairs(single, asked.catalogue)))
+        if settings.tied_seconds and single.decision.verdict == "unknown":
+            return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
+    except Exception as error:      # what one law alone came to stands
+        single = single.remarked(f"whether several laws act together could not be weighed: {sentence_of(error)}")
     return asked.of_its_form(single)
 
 
@@ -171,8 +175,8 @@ class Asked:
                 if whole is not None:
                     known = [*(c for c in known if c is not law), whole.named[0].candidate]
                     whole, why = self._weighed_beside(single, whole.named[0].fit, law, known)
-        except BrakechainError as error:
-            return None, replace(tried, outcome=str(error)), True
+        except Exception as error:
+            return None, replace(tried, outcome=sentence_of(error)), True
         if whole is None:
             return None, replace(tried, outcome=why), True
         named = (*(c.name for c in known), *(w.candidate.name for w in whole.named))
@@ -243,7 +247,7 @@ class Asked:
         asked = replace(self, catalogue=seconds).given([first.refined])
         try:
             _, pair = asked.steps(first.fit, single)
-        except ConvergenceError:
+        except BrakechainError:
             return None, False
         if not second_effect.matters(pair, explained, rules):
             return pair, False
@@ -258,7 +262,10 @@ class Asked:
         settings, rules = self.settings, self.settings.rules.decision
         while told.decision.verdict == "missing":
             first = told.named[0]
-            why = other_form.objection(told, first, self.catalogue, rules, self.fan_out, settings.seed)
+            try:
+                why = other_form.objection(told, first, self.catalogue, rules, self.fan_out, settings.seed)
+            except Exception as error:      # what cannot be asked is not named
+                why = f"whether what it leaves moves as other laws do could not be computed: {sentence_of(error)}"
             if not why:
                 break
             objected = {first.candidate.name: why}
@@ -267,8 +274,13 @@ class Asked:
             told = replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
-        why = [why for why in (other_form.of_noise(told, settings.seed), steady_tones.told(told.null)) if why]
-        return replace(told, decision=replace(told.decision, reasons=(*told.decision.reasons, *why)))
+        return told.remarked(*filter(None, (
+            instead(_not_computed)(other_form.of_noise)(told, settings.seed),
+            instead(_not_computed)(steady_tones.told)(told.null))))
+
+
+def _not_computed(error, *_):
+    return f"whether noise or a tone may be what is left could not be computed: {sentence_of(error)}"
 
 
 def _where_felt(elaborate, simple, screen, refits):

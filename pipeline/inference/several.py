@@ -13,6 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
+from pipeline.inference.fitting import regular
 from pipeline.inference.fitting.fit_state import Fit, from_prior_mean
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.problem import Motions, Problem
@@ -36,11 +37,11 @@ class _Columns:
     def log_evidence(self, members, left_out=None):
         """ln Z of the ``members`` (candidate, ...), up to a constant; without the run ``left_out``, where given."""
         hessian, projection = self._posed(members, left_out)
-        return float(0.5 * projection @ np.linalg.solve(hessian, projection) - 0.5 * np.linalg.slogdet(hessian)[1])
+        return float(0.5 * projection @ regular.solved(hessian, projection) - 0.5 * regular.log_determinant(hessian))
 
     def nominal(self, members):
         """Latent values (k,) of the nominal parameters beside the ``members``."""
-        solved = np.linalg.solve(*self._posed(members))
+        solved = regular.solved(*self._posed(members))
         return np.clip(solved[:np.count_nonzero(self.owner == -1)], -3, 3)
 
     def _posed(self, members, left_out=None):

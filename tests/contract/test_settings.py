@@ -1,10 +1,12 @@
 """Settings: strict, and their messages are part of the contract."""
 
+import json
 from typing import Literal
 
 import pytest
 
 from pipeline.contract import ConfigError, InputFile, NamedFile, Quantities, Quantity, Section, option
+from pipeline.contract.fingerprint import settings_of
 from pipeline.contract.settings import fill, leaves, restored, stored, without_origins
 
 
@@ -132,3 +134,19 @@ def test_a_section_that_names_a_file_comes_back_from_what_it_is_stored_as(tmp_pa
     (tmp_path / "a.dat").write_text("1")
     section = fill(Settings, {"scan": str(tmp_path / "a.dat"), "pressures": ["3 bar"]}, "c.yaml: s")
     assert restored(Settings, stored(section)) == section
+
+
+class Deep(Section):
+    """Sections two dictionaries deep, as courses of an input in a run are."""
+
+    courses: dict[str, dict[str, Ring]] = option({}, "rings by name and number")
+
+
+def test_settings_are_reached_however_deep_sections_lie():
+    """Each by its dotted key, or, beside what holds none, within a value in a form that JSON keeps."""
+    deep = fill(Deep, {"courses": {"load": {"a": {"thickness": "1 mm"}, "b": {}}}}, "c.yaml: s")
+    assert {leaf.key: leaf.value for leaf in leaves(deep)} == {
+        "courses.load.a.thickness": 0.001, "courses.load.b.thickness": 0.00687}
+    assert json.loads(json.dumps(settings_of(deep))) == settings_of(deep)
+    mixed = fill(Deep, {"courses": {"load": {"a": {"thickness": "1 mm"}}, "none": {}}}, "c.yaml: s")
+    assert json.loads(json.dumps(settings_of(mixed)))["courses"]["load"]["a"]["thickness"] == 0.001

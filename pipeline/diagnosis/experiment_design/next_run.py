@@ -24,6 +24,8 @@ from pipeline.physics.virtual_rig.response import Run, run_drive
 
 #: factor on the speed of the drive, whether it is constant or recorded
 DRIVE = "drive"
+#: fields of the product Diagnosis where no next experiment is told
+NOTHING = {"next_condition": [], "next_separates": [], "next_value": 0.0}
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def next_experiment(problem, diagnosis):
     planned = [(run, _predictions(problem, diagnosis, rivals, run)) for run in problem.next_runs] if rivals else []
     planned = [(run, predictions) for run, predictions in planned if predictions]
     if not planned:
-        return {"next_condition": [], "next_separates": [], "next_value": 0.0}
+        return NOTHING
     probability = np.array([rival.share for rival in rivals])
     choice = choose(probability / probability.sum(), [predictions for _, predictions in planned])
     return {"next_condition": [planned[choice.index][0].name],

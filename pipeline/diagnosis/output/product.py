@@ -3,9 +3,10 @@
 import numpy as np
 
 from pipeline.case_models.corrections import is_factor
-from pipeline.diagnosis.experiment_design.next_run import next_experiment
+from pipeline.diagnosis.experiment_design.next_run import NOTHING, next_experiment
+from pipeline.diagnosis.output.attempts import Attempts
 from pipeline.diagnosis.output.combinations import combinations
-from pipeline.diagnosis.output.remainder import remainder
+from pipeline.diagnosis.output.remainder import Remainder, remainder
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
 from pipeline.inference.decision.candidate_statistics import unexplained
@@ -13,6 +14,7 @@ from pipeline.inference.decision.held_out import errors
 from pipeline.inference.diagnosis import over_noise
 from pipeline.inference.fitting.noise import normalised_error
 from pipeline.inference.fitting.parameter_drift import spread
+from pipeline.inference.fitting.run_parameters import short
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables
@@ -25,34 +27,55 @@ def product(problem, diagnosis, contacts=None):
     ``contacts`` {location: names that the case gives to the contacts there}.
     """
     completed, recalibrated, table = diagnosis.completed, diagnosis.recalibrated, _hypotheses(diagnosis)
-    std = _std(diagnosis, completed)
+    std, attempt = _std(diagnosis, completed), Attempts()
     table["contacts"] = [_contacts(place, contacts or {}) for place in table["place"]]
-    runs, share = problem.problem, problem.rules.decision.start_share
-    fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part, share)
-            for part in (runs.training, runs.held_out)]
-    axes = problem.locator.located(diagnosis)
-    latent = problem.latent.described(diagnosis, axes) if problem.latent else None
+    runs = problem.problem
+    fits = [_errors(problem, diagnosis, part, attempt) for part in (runs.training, runs.held_out)]
+    axes = attempt("where the mismatch lies", problem.locator.located, diagnosis, otherwise={})
+    attempt.failures.extend(getattr(axes, "failures", ()))
+    latent = attempt("the missing force", problem.latent.described, diagnosis, axes) if problem.latent else None
     axes |= latent.regimes if latent else {}
     predicts = latent and problem.predicts_with_force and diagnosis.decision.verdict == "unknown"
-    use = problem.latent.predicted(diagnosis, latent) if predicts else None
-    squeals = problem.squeals.compared(recalibrated, completed) if problem.squeals else {}
-    channels, rows, left = tuple(problem.units), problem.rules.rows(), remainder(problem, diagnosis)
+    use = attempt("held-out runs with the missing force", problem.latent.predicted, diagnosis,
+                  latent) if predicts else None
+    squeals = attempt("the comparison of saturated squeal", problem.squeals.compared, recalibrated, completed,
+                      otherwise={}) if problem.squeals else {}
+    channels, rows = tuple(problem.units), problem.rules.rows()
+    left = attempt("what is left", remainder, problem, diagnosis, otherwise=Remainder(0.0, "", ""))
+    levels = attempt("the verdict at other levels of noise", over_noise, diagnosis, problem.settings,
+                     problem.noise_levels, otherwise=())
+    further = attempt("the next experiment", next_experiment, problem, diagnosis, otherwise=NOTHING)
     result = Diagnosis(
-        verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), other_machine="",
+        verdict=diagnosis.decision.verdict, other_machine="",
+        reason=[*diagnosis.decision.reasons, *problem.remarks, *short(runs, problem.budget),
+                *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
         **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
-        **_levels(problem, diagnosis), left_floors=left.floors, left_sentence=left.sentence,
+        **_levels(levels), left_floors=left.floors, left_sentence=left.sentence,
         left_candidate=left.candidate, **_starts(runs, completed, std),
         completed_step=problem.step / 2**halvings if (halvings := completed.hypothesis.halvings) else 0.0,
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,
         location={name: located(*axis) for name, axis in axes.items()},
-        **_latent(latent), **_used(use, runs), **next_experiment(problem, diagnosis),
-        runs={run.name: _run(problem, run, fits[run.held_out]) for run in runs.runs},
+        **_latent(latent), **_used(use, runs), **further,
+        runs={run.name: _run(problem, run, fits[run.held_out]) for run in runs.runs
+              if run.name in fits[run.held_out].by_run},
         squeal={name: squeal_check(comparison) for name, comparison in squeals.items()},
         threshold=[row[0] for row in rows], threshold_value=[row[1] for row in rows],
         threshold_unit=[row[2] for row in rows], threshold_meaning=[row[3] for row in rows])
     return problem.revision.revised(result, diagnosis) if problem.revision else result
+
+
+def _errors(problem, diagnosis, part, attempt):
+    """Errors over the runs of a ``part``, without those that a model cannot predict."""
+    def of(runs):
+        return errors(problem.problem, problem.budget, problem.problem.nominal, diagnosis.recalibrated,
+                      diagnosis.completed, runs, problem.rules.decision.start_share)
+
+    try:
+        return of(part)
+    except Exception:
+        return of([run for run in part if attempt(f"errors of run {run.name}", of, [run])])
 
 
 def located(location, unit="", edges=None):
@@ -132,9 +155,8 @@ def _leading(diagnosis, table):
             "leading_takes": [first.takes] if first else [], "leading_stays": [first.stays] if first else []}
 
 
-def _levels(problem, diagnosis):
-    """Fields of the verdict at other levels of noise."""
-    levels = over_noise(diagnosis, problem.settings, problem.noise_levels)
+def _levels(levels):
+    """Fields of the verdict at other levels of noise, [VerdictAtNoise]."""
     return {"noise_level": [level.factor for level in levels], "noise_verdict": [level.verdict for level in levels],
             "noise_named": [" or ".join(level.named) for level in levels]}
 

@@ -56,7 +56,8 @@ def deconvolved(bench, row, run, observed, noise, above_noise=DEFAULTS.latent_fo
     gain = np.sum(np.abs(transfer) ** 2 * precision, axis=0)
     seen, noise_power = np.sum(transfer.conj() * spectrum * precision, axis=0), np.sum(fade**2)
     power = np.abs(seen) ** 2 / np.maximum(gain, 1e-300) / noise_power
-    loud = np.flatnonzero(np.convolve(power, np.ones(NEIGHBOURS) / NEIGHBOURS, "same") > above_noise)
+    width = min(NEIGHBOURS, len(power))
+    loud = np.flatnonzero(np.convolve(power, np.ones(width) / width, "same") > above_noise)
     if not len(loud):
         return None
     force = seen / (gain + np.sum(gain[loud]) / np.sum(power[loud]))
@@ -81,9 +82,16 @@ def motion(bench, row, run, observed, noise):
     if seen and np.allclose(weight @ rows, row, atol=1e-6 * np.abs(row).max()) and observed.valid[seen].all():
         gain = np.array([known[observed.channels[k]].gain for k in seen])
         x = weight @ (observed.samples[seen] / gain[:, None])
-        return x, scipy.signal.savgol_filter(x, _SMOOTHING, 3, deriv=1, delta=1 / run.sample_rate)
+        return x, _rate(x, 1 / run.sample_rate)
     corrected = deconvolved(bench, row, run, observed, noise)
     return moved(bench, run, row) if corrected is None else (corrected.displacement, corrected.velocity)
+
+
+def _rate(x, step):
+    """Slope (n,) of samples (n,): by cubics over a few of them, of fewer by differences."""
+    if len(x) < _SMOOTHING:
+        return np.gradient(x, step) if len(x) > 1 else np.zeros(len(x))
+    return scipy.signal.savgol_filter(x, _SMOOTHING, 3, deriv=1, delta=step)
 
 
 def moved(bench, run, row):

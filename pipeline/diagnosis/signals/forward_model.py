@@ -169,11 +169,12 @@ def largest(recorded):
     return peaks
 
 
-def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()):
+def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=(), refused=None):
     """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes.
 
     ``scale``: recorded over nominal motion (see ``reach``); ``peaks``: what channels showed at most (see ``largest``);
-    ``priors`` {effect.parameter: section Prior} that are known otherwise.
+    ``priors`` {effect.parameter: section Prior} that are known otherwise. Effects that nominal runs give no size of are
+    left out; ``refused`` gets a sentence for each.
     """
     hypotheses, sizes = [], {}
     for effect in catalogue:
@@ -184,8 +185,16 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
             if kind not in sizes:       # nominal runs are simulated once for all effects of a place
                 size = typical(kind[0], bench, location, runs).scaled(scale)
                 sizes[kind] = _as_recorded(size, kind, bench, dict(peaks))
-            parameters = tuple(_named(p, effect, location, dict(priors)) for p in effect.parameters(sizes[kind]))
             pair = effect.name, location
+            try:
+                sized = effect.parameters(sizes[kind])
+            except (ConfigError, ArithmeticError) as error:
+                if refused is None:
+                    raise
+                refused.append(f"{label((pair,))} is not weighed: the nominal runs give no size of it"
+                               f" ({error}); state one in diagnosis.priors, or leave it out")
+                continue
+            parameters = tuple(_named(p, effect, location, dict(priors)) for p in sized)
             hypotheses.append(Hypothesis(label((pair,)), (pair,), parameters, effect.kind,
                                          elaborate=effect.elaborate,
                                          extends=tuple(label(((name, location),)) for name in effect.extends)))

@@ -6,10 +6,14 @@ unknown function of what moves there (displacement x and velocity v as recorded,
 a turning drive); a force with any history at all would explain the few channels of a bench from every place alike.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.contract import BrakechainError
+from pipeline.contract.errors import sentence_of
+from pipeline.diagnosis.problem import LocatedAxes
 from pipeline.diagnosis.signals.deconvolution import EXTRA, motion, moved
 from pipeline.diagnosis.signals.forward_model import STEP, completed, shown
 from pipeline.diagnosis.signals.start_states import begun_as
@@ -34,6 +38,8 @@ _STAGES = (*STAGES, "numerics")
 _ALIKE = 1e-6
 #: share of the rest that a unit force of the place axis has: of the largest root mean square force of a run
 _SHARE = 0.1
+#: divisors of that force that are tried one after the other
+_SMALLER = (1, 10, 100, 1000)
 #: harmonics of the drive's angle that a force may follow
 _ORDERS = 3
 
@@ -78,12 +84,15 @@ class ForcedAxes:
 
     def located(self, diagnosis):
         first = diagnosis.base or diagnosis
-        axes = self.residual.located(diagnosis)
+        axes = LocatedAxes(self.residual.located(diagnosis))
         runs = begun_as(self.runs, first.null.hypothesis, first.null.values)
-        if location := place_axis(fitted(self.bench, first.null), runs, first.null, first.weights,
-                                  self.residual.draws, self.residual.seed):
-            axes["place"] = (location, "", None)
-        return axes
+        try:
+            location = place_axis(fitted(self.bench, first.null), runs, first.null, first.weights,
+                                  self.residual.draws, self.residual.seed)
+        except Exception as error:
+            axes.failures = (f"the place of the mismatch could not be computed: {sentence_of(error)}",)
+            return axes
+        return axes | {"place": (location, "", None)} if location else axes
 
 
 def leading_place(axes, largest_p=0.05):
@@ -181,7 +190,7 @@ def place_axis(bench, runs, null, weights, draws=2000, seed=0):
     size = _force(bench, [runs[run.name] for run in null.runs])
     bases = {}
     for name, rows in places(bench).items():
-        whole = _basis(bench, runs, null, rows, size).T
+        whole = _pushed(bench, runs, null, rows, size).T
         if np.isfinite(whole).all() and whole.any():
             bases[name] = whole
     return localisation.places(tuple(bases), bases, null, weights, draws, seed) if bases else None
@@ -242,6 +251,14 @@ def _joint_force(bench, runs):
             x, v = moved(bench, run, row)
             forces.append(float(np.sqrt(np.mean((k * x + c * v) ** 2))))
     return max(forces)
+
+
+def _pushed(bench, runs, null, rows, size):
+    """``_basis``, by smaller forces where these drive the model beyond what it holds for; the change is scaled up."""
+    for smaller in _SMALLER[:-1]:
+        with suppress(BrakechainError):
+            return _basis(bench, runs, null, rows, size / smaller) * smaller
+    return _basis(bench, runs, null, rows, size / _SMALLER[-1]) * _SMALLER[-1]
 
 
 def _basis(bench, runs, null, rows, size):

@@ -20,6 +20,7 @@ from pipeline.contract import BrakechainError, ConfigError
 from pipeline.diagnosis.problem import parameter_name
 from pipeline.diagnosis.signals.unknown_blow import struck, with_blow
 from pipeline.diagnosis.signals.unseen import without_jumps, without_past
+from pipeline.diagnosis.signals.usable_runs import usable
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.simulate import Start
@@ -68,10 +69,11 @@ class StartSpread:
             for name, value, std in zip(names, getattr(run.start, field), getattr(self, field), strict=True))
 
 
-def started(bench, runs, settings):
+def started(bench, runs, settings, refused=None):
     """{name: Recorded} with the starts, or blows, that the section ``bench`` asks for, at their estimates.
 
-    ConfigError for a run that is to be fitted and is shorter than a period, or does not show how it began.
+    ConfigError for a run that is to be fitted and is shorter than a period, or does not show how it began; with
+    ``refused``, which gets {name: why}, such runs are left out as long as others are left.
     """
     runs = {name: without_jumps(bench, run) for name, run in runs.items()}
     every = settings.start == "fitted" or settings.measured_start
@@ -79,12 +81,18 @@ def started(bench, runs, settings):
         raise ConfigError("bench.start", "fitted, or no measured_start", "rest beside measured_start: true")
     if settings.blow is not None and every:
         raise ConfigError("bench.blow", "none where starts are fitted: before a blow the rig is at rest", settings.blow)
-    if settings.blow is not None:
-        return _as_repeats({name: _struck(bench, run, settings.blow) if moves_freely(bench, run) else run
-                            for name, run in runs.items()})
-    wanted = [name for name, run in runs.items()
-              if every or (settings.start is None and not settings.settled and moves_freely(bench, run))]
-    return _as_repeats({name: estimated(bench, run) if name in wanted else run for name, run in runs.items()})
+
+    def begun(record):
+        if settings.blow is not None:
+            return _struck(bench, record, settings.blow) if moves_freely(bench, record) else record
+        wanted = every or (settings.start is None and not settings.settled and moves_freely(bench, record))
+        return estimated(bench, record) if wanted else record
+
+    if refused is None:
+        return _as_repeats({name: begun(run) for name, run in runs.items()})
+    runs, left_out = usable(runs, begun)
+    refused.update(left_out)
+    return _as_repeats(runs)
 
 
 def _as_repeats(runs):

@@ -56,7 +56,8 @@ class Substituted:
         if not decrease:
             return axes
         stages = localisation.stages(tuple(decrease), decrease, self.draws, self.seed)
-        return axes | {AXIS: (stages, "", None)}
+        axes[AXIS] = (stages, "", None)
+        return axes
 
     def _squares(self, bench, runs):
         """Squared whitened error (blocks,) of the fitted ``runs`` {name: Run}."""

@@ -37,6 +37,6 @@ def apply(bench, location, values):
 
 EFFECT = Effect(
     name="moving_base", summary="a base behind a joint that moves as well", location="joint", stage="structure",
-    parameters=parameters, apply=apply, extends=("compliant_arm",),
+    parameters=parameters, apply=apply, elaborate=True, extends=("compliant_arm",),
     source="J. P. Den Hartog, Mechanical Vibrations (1934): two masses in series",
     valid="Valid while one mode of the base matters, and the joint is fixed to nothing else than the base.")

@@ -22,7 +22,7 @@ def held_out_gains(problem, budget, null, fits, posterior, rules):
         return dict.fromkeys(fits, (None, None))
     noises, share = tuple(budget[run.name] for run in runs), rules.decision.start_share
     reference, gains = held_out_residuals(problem, noises, null, runs, share), {}
-    rest = judged(null.hypothesis, noises, runs, share)
+    rest = judged(problem, noises, runs, share)
     for i, fit in fits.items():
         try:
             gains[i] = gain(rest, reference, held_out_residuals(problem, noises, fit, runs, share))
@@ -195,7 +195,7 @@ def _misfit_held_out(problem, budget, null, weights, uncertainty):
     latent = with_own_parameters(problem, noises, null.hypothesis, null.latent, runs)
     there = linearised(problem, noises, null.hypothesis, latent, runs)
     jacobian, residual = np.concatenate(there.jacobians), np.concatenate(there.residuals)
-    left = orthogonal(residual, jacobian, np.linalg.inv(null.covariance(weights)))
+    left = orthogonal(residual, jacobian, null.precision(weights))
     return _misfit(there.noises, there.residuals, residual @ left, uncertainty)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import scipy
 
 from pipeline.inference.fitting.fit_state import from_prior_mean, whitened
+from pipeline.inference.fitting.regular import log_determinant, solved
 from pipeline.inference.problem import operating_points
 
 
@@ -37,7 +38,7 @@ def reached(fit, weights=None):
     linearised = evidence(fit, weights)
     weights = np.ones(len(fit.runs)) if weights is None else weights
     lost = weights @ fit.chi_square + fit.latent @ fit.latent
-    log = -0.5 * lost + 0.5 * np.linalg.slogdet(fit.covariance(weights))[1]
+    log = -0.5 * lost - 0.5 * log_determinant(fit.precision(weights))
     return Evidence(min(float(log), linearised.log_evidence), linearised.left_out)
 
 
@@ -103,8 +104,8 @@ def _moments(fit, weights):
 
 def _log_evidence(information, projection, power):
     hessian = np.eye(len(projection)) + information
-    return float(-0.5 * (power - projection @ np.linalg.solve(hessian, projection))
-                 - 0.5 * np.linalg.slogdet(hessian)[1])
+    return float(-0.5 * (power - projection @ solved(hessian, projection))
+                 - 0.5 * log_determinant(hessian))
 
 
 def _left_out(information, projection, power, point):

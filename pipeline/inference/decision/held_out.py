@@ -109,10 +109,10 @@ def gain(noises, first, second):
     return Gain(float(sum(change)), float(np.sqrt(sum(variance))), float(excess), count)
 
 
-def judged(hypothesis, noises, runs, share):
+def judged(problem, noises, runs, share):
     """[Noise] of the part of held-out ``runs`` that is judged: all, or what follows the first ``share`` of a run whose
     own parameters are fitted to that."""
-    return tuple(noise.beyond(first_part(hypothesis, noise, run, share))
+    return tuple(noise.beyond(first_part(problem, noise, run, share))
                  for noise, run in zip(noises, runs, strict=True))
 
 
@@ -122,7 +122,7 @@ def held_out_residuals(problem, noises, fit, runs, share=1.0):
     Raises what the forward model raises.
     """
     latent = with_own_parameters(problem, noises, fit.hypothesis, fit.latent, runs, share)
-    residuals, error = whitened(problem, judged(fit.hypothesis, noises, runs, share), fit.hypothesis, latent, runs)
+    residuals, error = whitened(problem, judged(problem, noises, runs, share), fit.hypothesis, latent, runs)
     if error:
         raise error
     return residuals
@@ -138,7 +138,7 @@ def errors(problem, budget, nominal, null, best, runs, share=1.0):
     begins = [budget[run.name] for run in held_out]
     models = [(h, h.values(with_own_parameters(problem, begins, h, latent, held_out, share))) for h, latent in models]
     predicted = {run.name: np.array([problem.predict(h, values, run) for h, values in models], float) for run in runs}
-    seen = [_from(run, first_part(nominal, noise, run, share) * run.held_out)
+    seen = [_from(run, first_part(problem, noise, run, share) * run.held_out)
             for run, noise in zip(runs, noises, strict=True)]
     by_run = {run.name: np.array([*(normalised_error(run, run.samples - p) for p in predicted[run.name]),
                                   floor(run, budget[run.name])]) for run in seen}

@@ -104,7 +104,7 @@ def _needed(problem, budget, name, null, without, whole, rules):
     runs, errors = problem.held_out, None
     if runs:
         noises, share = tuple(budget[run.name] for run in runs), rules.start_share
-        gained = gain(judged(null.hypothesis, noises, runs, share),
+        gained = gain(judged(problem, noises, runs, share),
                       *(held_out_residuals(problem, noises, fit, runs, share) for fit in (without, whole)))
         errors = gained.errors_with(with_it.left_out - other.left_out)
     return Needed(name, with_it.log_evidence - other.log_evidence,

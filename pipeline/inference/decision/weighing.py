@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.contract.errors import sentence_of
 from pipeline.inference.decision.candidate_statistics import candidate_statistics, held_out_gains, run_statistics
 from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics, decide
 from pipeline.inference.decision.evidence import (
@@ -99,7 +100,7 @@ class Weighing:
 
 
 def weigh(refits, settings):
-    """Weighing of the Refits of a screened catalogue."""
+    """Weighing of the Refits of a screened catalogue; a candidate whose numbers cannot be computed is not judged."""
     problem, budget, null = refits.calibration.problem, refits.calibration.budget, refits.calibration.null
     fits = {i: r.fit for i, r in refits.results.items() if r.fit is not None}
     failures = {refits.directions[i].candidate.name: r.failure for i, r in refits.results.items() if r.failure}
@@ -120,7 +121,15 @@ def weigh(refits, settings):
             null, evidences.null, candidate, fit, own_evidence, probability[1 + i], p_value, held_out[i], weights,
             settings.rules))
 
-    every = sorted((weighed(i, fit) for i, fit in fits.items()), key=lambda w: -w.evidence.log_evidence)
+    judged, failed = [], {}
+    for i, fit in fits.items():
+        try:
+            judged.append(weighed(i, fit))
+        except Exception as error:
+            failed[i] = refits.results[i]._replace(fit=None, failure=sentence_of(error))
+    if failed:
+        return weigh(replace(refits, results=refits.results | failed), settings)
+    every = sorted(judged, key=lambda w: -w.evidence.log_evidence)
     runs = run_statistics(problem, budget, null, weights, drifting, settings.rules)
     return Weighing(runs, tuple(every), probability, evidences, drifting, failures)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError
+from pipeline.contract.errors import instead, sentence_of
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import begun
 from pipeline.inference.fitting.fit_state import whitened
@@ -24,6 +24,7 @@ _ALTERNATIVES = 2
 _SEVERAL = 3
 
 
+@instead(lambda error, *_: (None, sentence_of(error)))
 def begun_beside(problem, null, anchor, ahead, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
 
@@ -75,6 +76,7 @@ def directions_like(problem, anchor, values, item):
     return directions(problem, anchor, candidate, shapes_like(candidate, start, values), FINE_STEPS)
 
 
+@instead(lambda error, *_: (None, sentence_of(error)))
 def begun_at(problem, anchor, item):
     """The same from the nominal values of the Fit ``anchor`` alone."""
     candidate, start = item
@@ -96,10 +98,8 @@ def _starts(base, begins):
     return [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
 
 
+@instead(lambda error, *_: (None, sentence_of(error)))
 def tried(problem, null, candidate, starts, anchors, ahead=()):
     """(Fit of a candidate after a few iterations from the best of ``starts``, see ``calibration.begun``, "") or (None,
     what went wrong)."""
-    try:
-        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""
-    except BrakechainError as error:
-        return None, str(error)
+    return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""

@@ -20,6 +20,8 @@ def effective_share(noise, white, power=2):
     if not noise.ordered:
         return 1.0
     parts = [part for part in noise.by_channel(white) if len(part)]
+    if not parts:
+        return 1.0
     return sum(_effective_count(part, power) for part in parts) / sum(len(part) for part in parts)
 
 
@@ -28,7 +30,7 @@ def tempering(noises, whites):
 
     ``whites`` are the residuals of the best model at hand; what it leaves counts as noise of unknown origin.
     """
-    return np.array([effective_share(noise, white, 1) / max(1.0, np.mean(white**2))
+    return np.array([effective_share(noise, white, 1) / max(1.0, np.mean(white**2) if len(white) else 1.0)
                      for noise, white in zip(noises, whites, strict=True)])
 
 

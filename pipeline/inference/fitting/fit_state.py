@@ -8,12 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError
+from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError, sentence_of
 from pipeline.inference.fitting.effective_sample_size import tempering
+from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.priors import LATENT_LIMIT
 
 #: forward-difference step in latent coordinates
 DIFFERENCE = 1e-4
+#: predictions beyond which squares are no numbers any more
+_LARGEST = 1e100
 #: noise powers beyond which a residual is far off
 FAR = 100.0
 
@@ -88,7 +91,7 @@ class Fit:
     def promised(self):
         """Decrease of the objective that the slopes still promise."""
         gradient, hessian = self.slopes
-        return float(gradient @ np.linalg.solve(hessian, gradient))
+        return float(gradient @ solved(hessian, gradient))
 
     def ended(self, explained, fraction):
         """Whether it converged, or its slopes promise less than a ``fraction`` of what it ``explained``."""
@@ -120,7 +123,11 @@ class Fit:
 
     def covariance(self, weights=None):
         """Posterior covariance (k, k) of the latent coordinates, runs weighted (see ``effective.tempering``)."""
-        return np.linalg.inv(_information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent)))
+        return inverse(self.precision(weights))
+
+    def precision(self, weights=None):
+        """The inverse of ``covariance``."""
+        return _information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent))
 
     def spread(self, weights=None):
         """{name: standard deviation} of the values, by the slope of each prior's transform."""
@@ -146,10 +153,12 @@ def whitened(problem, noises, hypothesis, latent, runs):
             predicted = np.asarray(problem.predict(hypothesis, values, run), float)
         except BrakechainError as error:
             return None, error
+        except Exception as error:      # what one hypothesis cannot predict says nothing of others
+            return None, ConvergenceError(f"prediction of run {run.name}: {sentence_of(error)}")
         if predicted.shape != run.samples.shape:
             raise ConfigError(f"prediction of run {run.name}", f"channels and samples {run.samples.shape}",
                               str(predicted.shape))
-        if not np.isfinite(predicted).all():
+        if not (np.abs(predicted) < _LARGEST).all():
             return None, ConvergenceError(f"prediction of run {run.name}", "finite numbers", "others")
         residuals.append(noise.whiten(run.samples - predicted))
     return residuals, None
@@ -178,7 +187,7 @@ def orthogonal(residual, jacobian, prior_precision=None):
     sqrt(g'C^-1 g) is standard normal for every direction g where nothing else is missing.
     """
     precision = np.eye(jacobian.shape[1]) if prior_precision is None else prior_precision
-    return residual - jacobian @ np.linalg.solve(jacobian.T @ jacobian + precision, jacobian.T @ residual)
+    return residual - jacobian @ solved(jacobian.T @ jacobian + precision, jacobian.T @ residual)
 
 
 def from_prior_mean(fit):

@@ -41,6 +41,11 @@ class Noise:
             white[..., lag:] += self.filter[:, lag, None] * residual[..., :-lag]
         return (white / self.weight)[..., self.usable]
 
+    @property
+    def length(self):
+        """Number of samples of which some channel is usable."""
+        return int(self.usable.any(axis=0).sum())
+
     def horizon(self, share, fewest):
         """Number of samples from the begin of the run that hold this ``share`` of its usable ones, or ``fewest``."""
         counted = np.flatnonzero(self.usable.any(axis=0))

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.problem import operating_points
 
 DRAWS = 4000
@@ -154,13 +155,13 @@ def _null(information, inverse, joint, draws, generator):
     size = joint.shape[0]
     noise = np.einsum("iab,dib->dia", root, generator.standard_normal((draws, len(information), size)))
     score = noise + np.einsum("iab,db->dia", information, generator.standard_normal((draws, size)))
-    shift = np.linalg.solve(joint, score.sum(axis=1).T).T
+    shift = solved(joint, score.sum(axis=1).T).T
     return _statistic(score - np.einsum("iab,db->dia", information, shift), inverse)
 
 
 def _own_values(information, score):
     """Values and standard deviations that each point asks for, with the prior about the joint fit."""
-    covariance = np.linalg.inv(information + np.eye(information.shape[1]))
+    covariance = inverse(information + np.eye(information.shape[1]))
     return np.einsum("iab,ib->ia", covariance, score), np.sqrt(np.einsum("iaa->ia", covariance))
 
 
@@ -169,7 +170,7 @@ def _reduced(information, score, index):
     others = np.arange(information.shape[1]) != index
     rest = information[:, others][:, :, others] + np.eye(others.sum())
     cross = information[:, others, index]
-    gain = np.linalg.solve(rest, cross[..., None])[..., 0] if others.any() else cross
+    gain = solved(rest, cross[..., None])[..., 0] if others.any() else cross
     return (information[:, index, index] - np.einsum("ia,ia->i", cross, gain),
             score[:, index] - np.einsum("ia,ia->i", gain, score[:, others]))
 

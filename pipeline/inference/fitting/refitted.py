@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from pipeline.contract.errors import BrakechainError
+from pipeline.contract.errors import instead, sentence_of
 from pipeline.inference.fitting.calibration import paired_anew
 from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import continued, iterated
@@ -39,39 +39,33 @@ def lowest(results, others):
     return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
+@instead(lambda error, problem, enough, fit: fit)
 def advanced(problem, enough, fit):
     """A Fit after a few more iterations, as far as its forward model goes; as it is where it cannot come to ``enough``.
     """
-    try:
-        return fit if fit.converged else iterated(problem, fit, _LAP, enough, patient=False)
-    except BrakechainError:
-        return fit
+    return fit if fit.converged else iterated(problem, fit, _LAP, enough, patient=False)
 
 
+@instead(lambda error, problem, null, enough, rules, begin: Refitted(begin, None, sentence_of(error)))
 def finished(problem, null, enough, rules, begin):
     """Refitted of a candidate that has begun; where its forward model fails on the way, of its begin."""
-    try:
-        fit = begin if begin.converged else continued(problem, begin, enough=enough, patient=False)
-        fit = paired_anew(problem, fit, rules.calibration)
-    except BrakechainError as error:
-        return Refitted(begin, None, str(error))
+    fit = begin if begin.converged else continued(problem, begin, enough=enough, patient=False)
+    fit = paired_anew(problem, fit, rules.calibration)
     if not fit.converged and fit.objective > enough:
         return Refitted(fit, None, "its fit was given up, far from what others reach")
     failure = "" if fit.converged else f"its fit had not converged after {fit.evaluations} predictions"
     return Refitted(fit, _null_again(problem, null, fit, rules.refit), failure)
 
 
+@instead(lambda *_: None)
 def _null_again(problem, null, fit, rules):
     """A better Fit of the nominal model, reached from the optimum of a candidate that fits better than it, or None."""
     if fit.objective > null.objective - rules.better_by:
         return None
     size = len(null.latent)
-    try:
-        again = linearised(problem, null.noises, problem.nominal, fit.latent[:size], null.runs,
-                           [j[:, :size] for j in fit.jacobians])
-        again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
-    except BrakechainError:
-        return None
+    again = linearised(problem, null.noises, problem.nominal, fit.latent[:size], null.runs,
+                       [j[:, :size] for j in fit.jacobians])
+    again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
     if again.objective >= null.objective:
         return None
     return again if again.converged else continued(problem, again, patient=False)

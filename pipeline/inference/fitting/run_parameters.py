@@ -28,13 +28,23 @@ class Held:
         return self.whole.predict(self.hypothesis, self.values | values, run)
 
 
-def first_part(hypothesis, noise, run, share):
-    """Number of samples from the begin of ``run`` to which its own parameters are fitted: 0 where it has none.
+def first_part(problem, noise, run, share):
+    """Number of samples from the begin of ``run`` to which its own parameters are fitted: 0 where none has any.
 
-    The part holds this ``share`` of its usable samples, and a few for each parameter.
+    The part holds this ``share`` of its usable samples, and a few for each parameter, but no more than half of them
+    for these. It is one for all hypotheses of a Problem, so that they are judged by the same samples.
     """
-    count = sum(p.run == run.name for p in hypothesis.parameters)
-    return noise.horizon(share, _PER_PARAMETER * count) if count else 0
+    count = problem.own_parameters(run)
+    return noise.horizon(share, min(_PER_PARAMETER * count, noise.length // 2)) if count else 0
+
+
+def short(problem, budget):
+    """A sentence for each held-out run that is too short for as many samples as its own parameters should have."""
+    for run in problem.held_out:
+        needed, length = _PER_PARAMETER * problem.own_parameters(run), budget[run.name].length
+        if needed > length // 2:
+            yield (f"the held-out run {run.name} has {length} samples: the {length // 2} to which its unknown start is"
+                   f" fitted are few, and the rest judges little; record at least {4 * needed}, or state its start")
 
 
 def with_own_parameters(problem, noises, hypothesis, latent, runs, share=1.0):
@@ -47,7 +57,7 @@ def with_own_parameters(problem, noises, hypothesis, latent, runs, share=1.0):
         members = [k for k, p in enumerate(hypothesis.parameters) if p.run == run.name]
         if not members:
             continue
-        end = first_part(hypothesis, noise, run, share)
+        end = first_part(problem, noise, run, share)
         alone = Hypothesis(f"own parameters of {run.name}", (), tuple(hypothesis.parameters[k] for k in members))
         latent[members] = fit(Held(problem, hypothesis, values), (noise.until(end),), alone, latent[members],
                               (run.until(end),)).latent

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.inference.fitting.fit_state import refreshed, whitened
+from pipeline.inference.fitting.regular import solved
 from pipeline.inference.priors import LATENT_LIMIT
 
 #: longest step of a latent coordinate in one iteration
@@ -20,7 +21,7 @@ _TRUSTED = 0.25
 
 def newton_step(gradient, hessian):
     """Gauss-Newton's step (k,), no coordinate of it too long."""
-    step = np.linalg.solve(hessian, gradient)
+    step = solved(hessian, gradient)
     return step * min(1.0, _LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
 
 
@@ -65,7 +66,7 @@ def along_valley(problem, state):
         return state
     curved = [2 / _PROBE**2 * (before - after - _PROBE * (j @ step))
               for j, before, after in zip(state.jacobians, state.residuals, there, strict=True)]
-    bend = -0.5 * np.linalg.solve(hessian, sum(j.T @ c for j, c in zip(state.jacobians, curved, strict=True)))
+    bend = -0.5 * solved(hessian, sum(j.T @ c for j, c in zip(state.jacobians, curved, strict=True)))
     for t in _PATH:
         latent = within(state.latent + t * step + t**2 * bend)
         residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)

@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
+from pipeline.inference.fitting.regular import solved
 from pipeline.inference.priors import LATENT_LIMIT
 
 #: frequencies that are tried, and how many of them a fit begins at
@@ -115,7 +116,7 @@ def starts(problem, fit, candidate):
     if tone is None:
         return []
     hypothesis, jacobian = problem.nominal.joined(candidate), np.concatenate(fit.jacobians)
-    back = np.linalg.solve(jacobian.T @ jacobian + np.eye(len(fit.latent)), jacobian.T)
+    back = solved(jacobian.T @ jacobian + np.eye(len(fit.latent)), jacobian.T)
     base, start = np.concatenate(fit.residuals), np.concatenate(from_prior_mean(fit))
     ranked = []
     for frequency in modulations(fit) if tone.modulates else standing_out(fit):

@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from pipeline.inference.fitting.regular import solved
+
 #: stretches of a run over which the size of a change is averaged
 _STRETCHES = 16
 #: size of a column below which it is rounding
@@ -51,7 +53,7 @@ def followed(fit, index, weights=None):
 def _coefficients(jacobian, extra, residual):
     """[Following] of the columns ``extra`` (m, 2) beside a ``jacobian`` (m, k) whose values are free under priors."""
     inner = jacobian.T @ jacobian + np.eye(jacobian.shape[1])
-    cleaned = extra - jacobian @ np.linalg.solve(inner, jacobian.T @ extra)
+    cleaned = extra - jacobian @ solved(inner, jacobian.T @ extra)
     information = extra.T @ cleaned
     seen = np.diag(information) > _LEAST * np.einsum("mk,mk->k", extra, extra)
     found = []

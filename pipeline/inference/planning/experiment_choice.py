@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.inference.fitting.regular import log_determinant, solved
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,13 @@ def divergence(first, second):
     """
     gap = first.mean - second.mean
     inner = np.eye(second.root.shape[1]) + second.root.T @ second.root
-    solved = np.linalg.solve(inner, second.root.T @ np.column_stack((gap, first.root)))
+    back = solved(inner, second.root.T @ np.column_stack((gap, first.root)))
     cross = second.root.T @ first.root
-    trace = np.sum(first.root**2) - np.sum(second.root * np.linalg.solve(inner, second.root.T).T) - np.sum(
-        cross * solved[:, 1:])
-    square = gap @ gap - (second.root.T @ gap) @ solved[:, 0]
-    log_determinant = np.linalg.slogdet(np.eye(first.root.shape[1]) + first.root.T @ first.root)[1]
-    return float(0.5 * (trace + square + np.linalg.slogdet(inner)[1] - log_determinant))
+    trace = np.sum(first.root**2) - np.sum(second.root * solved(inner, second.root.T).T) - np.sum(
+        cross * back[:, 1:])
+    square = gap @ gap - (second.root.T @ gap) @ back[:, 0]
+    first_determinant = log_determinant(np.eye(first.root.shape[1]) + first.root.T @ first.root)
+    return float(0.5 * (trace + square + log_determinant(inner) - first_determinant))
 
 
 def choose(probability, predictions):

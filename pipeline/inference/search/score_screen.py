@@ -15,6 +15,7 @@ from itertools import product
 
 import numpy as np
 
+from pipeline.contract.errors import instead, sentence_of
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
@@ -131,6 +132,8 @@ def _each_once(promising, screen, kept):
     return (*first, *(i for i in promising if i not in first))
 
 
+@instead(lambda error, problem, null, candidate, *_, **__: Directions(
+    candidate, np.empty((0, int(null.counts.sum()))), np.array([], int), (), sentence_of(error)))
 def directions(problem, null, candidate, shapes=None, steps=STEPS):
     """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis.
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from pipeline.inference.fitting.effective_sample_size import tempering
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal
+from pipeline.inference.fitting.regular import log_determinant, solved
 
 #: most laws of a subset
 MOST = 4
@@ -57,8 +58,8 @@ class Table:
         size = members.shape[1]
         hessian = np.eye(size) + self.gram[members[:, :, None], members[:, None, :]]
         score = self.score[members]
-        coefficient = np.linalg.solve(hessian, score[:, :, None])[:, :, 0]
-        gained = 0.5 * np.einsum("mk,mk->m", score, coefficient) - 0.5 * np.linalg.slogdet(hessian)[1]
+        coefficient = solved(hessian, score[:, :, None])[:, :, 0]
+        gained = 0.5 * np.einsum("mk,mk->m", score, coefficient) - 0.5 * log_determinant(hessian)
         gained -= multiplicity(self.count, size)
         against = (self.sign[members] * coefficient < 0).any(axis=1)
         return np.where(against, -np.inf, gained), coefficient
@@ -100,7 +101,8 @@ def table(null, every):
 
 
 def _exclusive(candidates):
-    return np.array([[one.excludes(other) for other in candidates] for one in candidates], bool)
+    alike = [[one.excludes(other) for other in candidates] for one in candidates]
+    return np.array(alike, bool).reshape(len(candidates), len(candidates))
 
 
 def best_subsets(of, most=MOST, count=8):
@@ -159,5 +161,5 @@ def _weights(null, residual, columns):
 
 def left_by(columns, residual):
     """(m,) of a ``residual`` (m,) that ``columns`` (m, k) leave, each coefficient as uncertain as its prior."""
-    u = np.linalg.solve(np.eye(columns.shape[1]) + columns.T @ columns, columns.T @ residual)
+    u = solved(np.eye(columns.shape[1]) + columns.T @ columns, columns.T @ residual)
     return residual - columns @ u

@@ -7,9 +7,11 @@ import pytest
 
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
+from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.diagnosis.signals import localisation
 from pipeline.diagnosis.signals.localisation import band_axis, place_axis, places, run_axis, stage_axis, stage_of
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
@@ -82,7 +84,43 @@ def test_the_stage_is_that_of_the_leading_hypotheses():
     assert found.significant(0.01) == ("structure",)
 
 
+def test_a_model_that_a_push_drives_beyond_what_it_holds_for_is_pushed_less(monkeypatch):
+    bench, runs, null = two_masses.fitted({"cubic_stiffness": {"mount": {"coefficient": "3e5 N/m^3"}}})
+    rows, basis, tried = np.array([[1.0, 0.0]]), localisation._basis, []
+    whole = basis(bench, runs, null, rows, 0.1)
+
+    def weak(bench, runs, null, rows, size):
+        tried.append(size)
+        if size > 0.005:
+            raise ConfigError("time stepping at t = 1.15 s", "a step that resolves the element", "none")
+        return basis(bench, runs, null, rows, size)
+
+    monkeypatch.setattr(localisation, "_basis", weak)
+    np.testing.assert_allclose(localisation._pushed(bench, runs, null, rows, 0.1), whole, rtol=1e-6, atol=1e-6)
+    assert tried == pytest.approx([0.1, 0.01, 0.001])
+    monkeypatch.setattr(localisation, "_basis", lambda *_: weak(bench, runs, null, rows, 1.0))
+    with pytest.raises(ConfigError, match="time stepping at t = 1.15 s"):
+        localisation.place_axis(bench, runs, null, null.weights, 100)
+
+
+def test_a_place_that_cannot_be_computed_costs_no_other_axis(monkeypatch):
+    asked, found = forced()
+    monkeypatch.setattr(localisation, "_basis", lambda *_: 1 / 0)
+    axes = asked.locator.located(found)
+    assert set(axes) == {"stage", "run", "band"} and asked.latent.described(found, axes) is None
+    assert axes.failures[0].startswith("the place of the mismatch could not be computed: internal error ZeroDivision")
+
+
 def test_forced_runs_are_located_on_all_axes():
+    asked, found = forced()
+    axes = asked.locator.located(found)
+    assert set(axes) == {"stage", "run", "place", "band"}
+    told = asked.latent.described(found, axes)
+    assert told.location == "mount = left" and set(told.regimes) == {"amplitude", "velocity", "time"}
+
+
+def forced():
+    """(DiagnosisProblem of two masses, Diagnosis of it as far as locators look)."""
     laid, whole = two_masses.LAID, two_masses.built()
     asked = forced_problem(whole, recorded(two_masses.recording({"cubic_stiffness": {"mount": {
         "coefficient": "3e5 N/m^3"}}}), laid), fill(Settings, two_masses.ASKED, "diagnosis"))
@@ -91,8 +129,4 @@ def test_forced_runs_are_located_on_all_axes():
                       asked.problem.nominal.nominal, training)
     screen = SimpleNamespace(candidates=asked.candidates, score=np.ones(len(asked.candidates)),
                              p_value=np.ones(len(asked.candidates)))
-    found = SimpleNamespace(base=None, null=null, recalibrated=null, screen=screen, weighed=(), weights=None)
-    axes = asked.locator.located(found)
-    assert set(axes) == {"stage", "run", "place", "band"}
-    told = asked.latent.described(found, axes)
-    assert told.location == "mount = left" and set(told.regimes) == {"amplitude", "velocity", "time"}
+    return asked, SimpleNamespace(base=None, null=null, recalibrated=null, screen=screen, weighed=(), weights=None)

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.inference.decision.candidate_statistics import held_out_gains
 from pipeline.inference.decision.held_out import errors, gain, held_out_residuals, judged
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget, whitening
+from pipeline.inference.fitting.run_parameters import first_part, short
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis
+from pipeline.inference.rules import DEFAULTS
 from tests.inference import oscillator
 from tests.inference.curves import noises_of
 from tests.inference.fitting.test_noise import run
@@ -91,7 +96,7 @@ def test_of_a_run_whose_start_is_fitted_only_the_rest_is_judged():
     run, = problem.held_out
     null = fit(problem, noises_of(problem, noise), problem.nominal, np.zeros(8), problem.training)
     residual, = held_out_residuals(problem, [noise[run.name]], null, [run], 0.5)
-    assert len(residual) == 30 == judged(problem.nominal, [noise[run.name]], [run], 0.5)[0].count
+    assert len(residual) == 30 == judged(problem, [noise[run.name]], [run], 0.5)[0].count
     spoiled = run.samples.copy()
     spoiled[0, 30:] += 100.0                    # after the part that the start is fitted to
     elsewhere = replace(problem, runs=(*problem.training, replace(run, samples=spoiled)))
@@ -101,3 +106,26 @@ def test_of_a_run_whose_start_is_fitted_only_the_rest_is_judged():
     rest = run.samples[0, 30:]
     assert told.noise_floor == pytest.approx(noise[run.name].std[0] / rest.std(), rel=1e-9)
     assert told.recalibrated == pytest.approx(np.sqrt(np.mean(residual**2)) * told.noise_floor, rel=1e-9)
+
+
+def test_hypotheses_of_unlike_numbers_of_start_states_are_judged_by_the_same_samples():
+    """A body that an effect adds has a start of its own; nothing is subtracted of unequal length, also of a pair."""
+    problem, noise, tables = made(held_out=1)
+    run, = problem.held_out
+    added = tuple(Parameter(f"body@{run.name}.{k}", "1", 0.0, Normal(0.0, 1.0), run=run.name) for k in range(2))
+    candidate = Hypothesis("body", (("body", "joint"),), (
+        *added, Parameter("body.size", "1", 0.0, Normal(0.0, 1.0), 0.0)))
+    for name, columns in tables.items():
+        columns |= {p.name: np.cos(k + np.arange(60.0)) * (p.run in ("", name))
+                    for k, p in enumerate(candidate.parameters)}
+    alike = problem.for_all((candidate,))
+    null, whole = (fit(problem, noises_of(problem, noise), h, np.zeros(len(h.parameters)), problem.training)
+                   for h in (problem.nominal, problem.nominal.joined(candidate)))
+    for posed in (alike, alike.given(candidate), alike.given(candidate).for_all(())):
+        lengths = {len(held_out_residuals(posed, [noise[run.name]], f, [run], 0.01)[0]) for f in (null, whole)}
+        assert lengths == {30}, "eight samples for each of four are more than half of the run"
+        gained, _ = held_out_gains(posed, noise, null, {0: whole}, np.ones(1), DEFAULTS)[0]
+        assert gained.count == 60 - first_part(posed, noise[run.name], run, DEFAULTS.decision.start_share)
+    told, = short(alike, noise)
+    assert told.startswith(f"the held-out run {run.name} has 60 samples: the 30 to which its unknown start is fitted")
+    assert not list(short(problem, noise))

@@ -76,14 +76,14 @@ def test_a_held_out_run_gives_its_own_parameters_from_its_first_part():
     run, = problem.held_out
     found = fit(problem, noises_of(problem, noise), problem.nominal, np.zeros(8), problem.training)
     assert not found.latent[6:].any(), "the fitted runs say nothing of it"
-    end = first_part(problem.nominal, noise[run.name], run, 0.5)
+    end = first_part(problem, noise[run.name], run, 0.5)
     latent = with_own_parameters(problem, [noise[run.name]], problem.nominal, found.latent, [run], 0.5)
     columns = np.array([tables[run.name][p.name][:end] for p in problem.nominal.parameters]).T / linear.STD
     left = run.samples[0, :end] / linear.STD - columns[:, :2] @ found.latent[:2]
     alone = 3 * columns[:, 6:]
     np.testing.assert_allclose(latent[6:], np.linalg.solve(alone.T @ alone + np.eye(2), alone.T @ left), atol=1e-3)
     np.testing.assert_array_equal(latent[:6], found.latent[:6])
-    assert end == 30 and first_part(problem.nominal, noise[run.name], run, 0.01) == 16, "eight samples for each"
+    assert end == 30 and first_part(problem, noise[run.name], run, 0.01) == 16, "eight samples for each"
     whole = on_all_runs(problem, noise, found)
     assert not np.array_equal(whole[6:], latent[6:]) and np.array_equal(whole[:6], found.latent[:6])
 
@@ -91,7 +91,7 @@ def test_a_held_out_run_gives_its_own_parameters_from_its_first_part():
 def test_runs_without_parameters_of_their_own_are_judged_as_a_whole():
     whole, noise, _, _ = linear.problem((2,), held_out=1)
     run, = whole.held_out
-    assert first_part(whole.nominal, noise[run.name], run, 0.5) == 0
+    assert first_part(whole, noise[run.name], run, 0.5) == 0
     np.testing.assert_array_equal(with_own_parameters(whole, [noise[run.name]], whole.nominal, [0.3, 0.4], [run]),
                                   [0.3, 0.4])
 

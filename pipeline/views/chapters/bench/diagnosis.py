@@ -253,6 +253,8 @@ def _next(product):
 
 
 def _notes(product):
+    if product.verdict.item() in ("missing", "sensor", "numerics"):     # of others all reasons are told
+        yield from (_sentence(reason) for reason in product.reason if "could not be" in str(reason))
     if not any(r.held_out for r in product.runs.values()):
         yield "No run was held out: nothing here is verified on unfitted recordings."
     if product.latent_sentence.item() and product.verdict.item() == "unknown":
