@@ -73,6 +73,26 @@ def test_no_gain_explains_a_decay_by_making_it_small():
     assert gain.fit.objective > 0.97 * found.null.objective, "it takes the noise of the force channel at most"
 
 
+def test_a_gain_beside_free_masses_is_told_and_not_weighed():
+    spreads = {name: {"spread": 0.3} for name in ("masses.block", "joints.mount.stiffness", "joints.mount.damping")}
+    found = asked(HIDDEN, parameters=spreads, effects=["coulomb", "sensor_gain", "unit_factor"]).solved()
+    assert {"sensor_gain at x", "unit_factor at x"} <= set(found.failures)
+    assert "a gain of x cannot be told from the masses" in found.failures["sensor_gain at x"]
+    assert found.decision.verdict != "sensor" and not any(w.candidate.kind == "sensor" for w in found.weighed)
+
+
+def test_a_gain_beside_known_masses_is_named():
+    given = recording(noise=1e-5)
+    for run in given.runs.values():
+        run.channels["x"] = replace(run.channels["x"], samples=1.2 * run.channels["x"].samples)
+    settings = laid_out(**BALANCED)
+    section = {**ASKED, "effects": ["cubic_stiffness", "coulomb", "sensor_gain"]}
+    found = force_balance_problem(benches.built(model(), settings), recorded(given, settings),
+                                  fill(Settings, section, "diagnosis"), settings.equation).solved()
+    assert found.decision.verdict == "sensor"
+    assert found.named[0].fit.values["sensor_gain@x.error"] == pytest.approx(0.2, abs=0.01)
+
+
 def test_the_noise_is_that_of_the_forces():
     found = asked()
     assert found.units == {"force on block": "N"} and found.budget["level_1"].std == pytest.approx([0.2])

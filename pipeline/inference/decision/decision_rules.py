@@ -17,9 +17,9 @@ class CandidateStatistics:
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow
-    along the runs, in words. ``held_out_error``: root mean square that it leaves there, in noise floors. ``adapts``:
-    whether it is a law of samples in time whose shape adapts to them. ``nominal_p``: p-value of the nominal values that
-    it asks for, under their priors.
+    along the runs, in words; ``remarks`` the same where it is told, and does not speak against it. ``held_out_error``:
+    root mean square that it leaves there, in noise floors. ``adapts``: whether it is a law of samples in time whose
+    shape adapts to them. ``nominal_p``: p-value of the nominal values that it asks for, under their priors.
     """
 
     name: str
@@ -47,6 +47,7 @@ class CandidateStatistics:
     held_out_error: float | None = None
     adapts: bool = False
     nominal_p: float = 1.0
+    remarks: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -98,15 +99,20 @@ def decide(runs, candidates, rules):
         decision = replace(decision, reasons=decision.reasons + runs.excluded)
     if decision.verdict == "unknown":
         decision = replace(decision, leading=leading(significant, rules))
-    return replace(decision, reasons=decision.reasons + tuple(reasons) + _not_tested(runs, rules))
+    remarks = tuple(f"{c.name}: {why}" for c in decision.named for why in c.remarks)
+    return replace(decision, reasons=decision.reasons + remarks + tuple(reasons) + _not_tested(runs, rules))
 
 
 def leading(significant, rules):
-    """The most probable of the ``significant`` candidates that help beyond chance on runs not fitted, or None."""
+    """The most probable of the ``significant`` candidates that help beyond chance on runs not fitted, or None.
+
+    None leads whose fit cannot be relied on, or whose posterior is negligible beside one of which that is so.
+    """
     def helps(candidate):
         beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
         return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
-                and candidate.from_null >= rules.from_null and not candidate.forbidden)
+                and candidate.from_null >= rules.from_null and not candidate.forbidden and not candidate.doubts
+                and candidate.nominal_p >= rules.nominal_p and candidate.posterior >= rules.leads)
 
     return max(filter(helps, significant), key=lambda c: c.posterior, default=None)
 
