@@ -14,6 +14,9 @@ from pipeline.inference.fitting.varying_values import followed
 from pipeline.inference.priors import LATENT_LIMIT, LogNormal
 from pipeline.inference.search.score_screen import short_name
 
+#: share of the range of a size of either sign that counts as its end
+_EDGE = 0.01
+
 
 def held_out_gains(problem, budget, null, fits, posterior, rules):
     """{index: (Gain or None, whether it beats a decoy of equal size or None)} of the Fits ``fits`` {index: Fit}."""
@@ -118,11 +121,16 @@ def _varying(fit, indices, weights, rules, beside=False):
 
 
 def _at_edges(fit, null, rules):
-    """Sentences on values at the edge of their priors: those of an effect, and nominal ones at the end of what can be.
-    """
+    """Sentences on values at the edge of their priors: nominal ones at the end of what can be, those of an effect that
+    priors all but exclude, sizes of either sign at an end of their range."""
     size = len(null.latent)
-    own = fit.excluded(rules.calibration.excluded, range(size, len(fit.latent)))
-    return (*fit.excluded(LATENT_LIMIT - 1e-6, range(size)), *own)
+    yield from fit.excluded(LATENT_LIMIT - 1e-6, range(size))
+    yield from fit.excluded(rules.calibration.excluded, range(size, len(fit.latent)))
+    for parameter, latent in zip(fit.hypothesis.parameters[size:], fit.latent[size:], strict=True):
+        low, high = parameter.prior.support
+        value, within = parameter.prior.value(latent), (1 - _EDGE) * (high - low)
+        if parameter.null is not None and low < parameter.null < high and max(value - low, high - value) > within:
+            yield f"its {short_name(parameter)} of {value:.3g} is at the end of its range, {low:g} to {high:g}"
 
 
 def _one_factor(fit, null, rules):
