@@ -14,8 +14,12 @@ from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.response import Run, respond
+from stages.lumped import Settings as LumpedSettings
+from stages.lumped import lumped
+from stages.reduced_model import Settings as ReductionSettings
+from stages.reduced_model import reduced_model
 from tests.case_models.test_force_balance import BALANCED
-from tests.diagnosis.small_rig import HIDDEN, RATE, SAMPLES, effects, laid_out, model, recording
+from tests.diagnosis.small_rig import HIDDEN, LUMPED, RATE, SAMPLES, effects, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.3}},
          "held_out": ["level_4"], "noise": {"std": {"force on block": "0.2 N"}},
@@ -79,6 +83,19 @@ def test_a_gain_beside_free_masses_is_told_and_not_weighed():
     assert {"sensor_gain at x", "unit_factor at x"} <= set(found.failures)
     assert "a gain of x cannot be told from the masses" in found.failures["sensor_gain at x"]
     assert found.decision.verdict != "sensor" and not any(w.candidate.kind == "sensor" for w in found.weighed)
+
+
+def test_places_that_are_one_coordinate_are_one_place_and_no_tie():
+    wall = {"between": ["block.x", "ground"], "damping": "0.1 N s/m"}
+    rig = {**LUMPED, "springs": {**LUMPED["springs"], "wall": wall}}
+    rubbing = reduced_model(lumped(settings=fill(LumpedSettings, rig, "lumped")), settings=ReductionSettings())
+    settings = laid_out(**BALANCED)
+    section = {**ASKED, "effects": ["cubic_stiffness", "coulomb"]}
+    found = force_balance_problem(benches.built(rubbing, settings), recorded(recording(HIDDEN, noise=1e-5), settings),
+                                  fill(Settings, section, "diagnosis"), settings.equation).solved()
+    assert found.decision.verdict == "missing" and found.named[0].candidate.effects[0][0] == "cubic_stiffness"
+    assert found.decision.named[0].posterior == pytest.approx(1.0)
+    assert any("is the same coordinate: one place with two names" in why for why in found.decision.reasons)
 
 
 def test_a_gain_beside_known_masses_is_named():

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, replace
 
+#: relative difference of numbers that are the same
+_ROUNDING = 1e-6
 VERDICTS = ("consistent", "parameters", "missing", "tie", "sensor", "numerics", "unknown")
 
 
@@ -181,7 +183,7 @@ def _among(survivors, rivals, runs, rules):
     total = _posterior(survivors) + _posterior(rivals)
     ordered = sorted((replace(c, posterior=c.posterior / max(total, 1e-300)) for c in survivors + rivals),
                      key=lambda c: -c.posterior)
-    named, posterior = [], 0.0
+    ordered, named, posterior = _each_once(ordered), [], 0.0
     for candidate in ordered:
         named.append(candidate)
         posterior += candidate.posterior
@@ -201,6 +203,27 @@ def _among(survivors, rivals, runs, rules):
     verdict = {"physics": "missing"}.get(best.kind, best.kind)
     return Decision(verdict, (best,), (f"{best.name}: posterior {best.posterior:.3f}, p {best.p_value:.2g} over the"
                                        f" catalogue, evidence {best.evidence_gain:.1f} over the nominal model",))
+
+
+def _each_once(candidates):
+    """The ``candidates``; of one effect at places that are one coordinate the first alone, as likely as all together."""
+    once = []
+    for candidate in candidates:
+        k = next((k for k, first in enumerate(once) if _same(first, candidate)), None)
+        if k is None:
+            once.append(candidate)
+        else:
+            first, place = once[k], candidate.name.partition(" at ")[2]
+            once[k] = replace(first, posterior=first.posterior + candidate.posterior, remarks=(
+                *first.remarks, f"{place} is the same coordinate: one place with two names"))
+    return once
+
+
+def _same(first, other):
+    """Whether two candidates are one effect that predicts the same."""
+    alike = [(one.evidence_gain, one.takes, one.unexplained, one.left_out_gain) for one in (first, other)]
+    return (first.name.partition(" at ")[0] == other.name.partition(" at ")[0]
+            and all(abs(a - b) <= _ROUNDING * (abs(a) + abs(b)) for a, b in zip(*alike, strict=True)))
 
 
 def _nothing_named(runs, rules, some_significant):
