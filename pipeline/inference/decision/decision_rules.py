@@ -78,13 +78,14 @@ class Decision:
     """``verdict``, the ``named`` CandidateStatistics (one, or all of a tie), and the ``reasons`` in words.
 
     ``leading``: where nothing is named although something is missing, the CandidateStatistics of what explains most of
-    it beyond chance; None where no candidate helps.
+    it beyond chance; None where no candidate helps. ``family``: others at its place that take about as much.
     """
 
     verdict: str
     named: tuple
     reasons: tuple
     leading: CandidateStatistics | None = None
+    family: tuple = ()
 
 
 def decide(runs, candidates, rules):
@@ -101,6 +102,7 @@ def decide(runs, candidates, rules):
         decision = replace(decision, reasons=decision.reasons + runs.excluded)
     if decision.verdict == "unknown":
         decision = replace(decision, leading=leading(significant, rules))
+        decision = replace(decision, family=_family(decision.leading, significant, rules))
     remarks = tuple(f"{c.name}: {why}" for c in decision.named for why in c.remarks)
     return replace(decision, reasons=decision.reasons + remarks + tuple(reasons) + _not_tested(runs, rules))
 
@@ -108,15 +110,30 @@ def decide(runs, candidates, rules):
 def leading(significant, rules):
     """The most probable of the ``significant`` candidates that help beyond chance on runs not fitted, or None.
 
-    None leads whose fit cannot be relied on, or whose posterior is negligible beside one of which that is so.
+    None leads whose posterior is negligible beside one that cannot be relied on.
     """
-    def helps(candidate):
-        beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
-        return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
-                and candidate.from_null >= rules.from_null and not candidate.forbidden and not candidate.doubts
-                and candidate.nominal_p >= rules.nominal_p and candidate.posterior >= rules.leads)
+    helping = [c for c in significant if _helps(c, rules) and c.posterior >= rules.leads]
+    return max(helping, key=lambda c: c.posterior, default=None)
 
-    return max(filter(helps, significant), key=lambda c: c.posterior, default=None)
+
+def _helps(candidate, rules):
+    """Whether a candidate helps beyond chance on runs not fitted, by a fit that can be relied on."""
+    beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
+    return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
+            and candidate.from_null >= rules.from_null and not candidate.forbidden and not candidate.doubts
+            and candidate.nominal_p >= rules.nominal_p)
+
+
+def _family(first, significant, rules):
+    """Candidates of the kind and at the place of the ``first`` that take nearly as much: of its family, if no more."""
+    if first is None:
+        return ()
+    return tuple(c for c in significant if c is not first and c.kind == first.kind and _place(c) == _place(first)
+                 and c.takes >= rules.first_share * first.takes and _helps(c, rules))
+
+
+def _place(candidate):
+    return candidate.name.partition(" at ")[2]
 
 
 def objections(candidate, runs, rules):
@@ -206,14 +223,14 @@ def _among(survivors, rivals, runs, rules):
 
 
 def _each_once(candidates):
-    """The ``candidates``; of one effect at places that are one coordinate the first alone, as likely as all together."""
+    """The ``candidates``; of one effect at places that are one coordinate the first alone, as likely as all of it."""
     once = []
     for candidate in candidates:
         k = next((k for k, first in enumerate(once) if _same(first, candidate)), None)
         if k is None:
             once.append(candidate)
         else:
-            first, place = once[k], candidate.name.partition(" at ")[2]
+            first, place = once[k], _place(candidate)
             once[k] = replace(first, posterior=first.posterior + candidate.posterior, remarks=(
                 *first.remarks, f"{place} is the same coordinate: one place with two names"))
     return once

@@ -97,7 +97,7 @@ def _unknown(product):
         return "The recordings do not fit this model: are they of another machine?"
     if not len(product.leading):
         return f"Unmodelled physics{_at(product)}, outside the catalogue"
-    k, = product.leading
+    k = product.leading[0]
     takes = percent(product.leading_takes[0], 2)
     return f"Leading explanation, not confirmed: {_effect(product, k)}; takes {takes} of the excess error"
 
@@ -108,12 +108,14 @@ def _leading(product):
         return product.other_machine.item()
     if not len(product.leading):
         return "No effect of the catalogue helps beyond chance: the physics lies outside it."
-    k, = product.leading
+    k, *family = product.leading
     judged = "of the excess error on held-out runs" if any(r.held_out for r in product.runs.values()) else \
         "of the excess error"
     return (f"The leading explanation is {_effect(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
             f" probability): it takes {percent(product.leading_takes[0], 2)} {judged}, and"
-            f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise.")
+            f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise."
+            + (f" Of its family, {_listed([_effect(product, each) for each in family])} would take nearly as much: the"
+               " form of the law is open." if family else ""))
 
 
 def _levels(product):
