@@ -55,6 +55,11 @@ class Balanced:
         bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
         return self.balances[run.name].predicted(bench)
 
+    @property
+    def plain(self):
+        """The same without noise in place of what friction at rest takes off it, as stage bench shows it."""
+        return replace(self, balances={name: replace(one, noise=0.0) for name, one in self.balances.items()})
+
     def along(self, null):
         """The Problem of the runs of a Fit ``null``: all its forces are along measured motions."""
         return Problem(null.runs, self, null.hypothesis)

@@ -12,6 +12,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.diagnosis.signals.forward_model import completed
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.response import Run, respond
 from stages.lumped import Settings as LumpedSettings
@@ -108,6 +109,18 @@ def test_a_gain_beside_known_masses_is_named():
                                   fill(Settings, section, "diagnosis"), settings.equation).solved()
     assert found.decision.verdict == "sensor"
     assert found.named[0].fit.values["sensor_gain@x.error"] == pytest.approx(0.2, abs=0.01)
+
+
+def test_errors_that_are_told_are_those_of_the_balance_alone():
+    """Noise stands in for what friction at rest takes off it in fits only: stage bench shows the same error."""
+    given = asked(HIDDEN, effects=["coulomb"])
+    hypothesis, (run, *_) = given.problem.nominal.joined(given.candidates[0]), given.problem.runs
+    values = hypothesis.values(np.full(len(hypothesis.parameters), 1.5))
+    fitted, told = (predict(hypothesis, values, run) for predict in (given.problem.predict, given.problem.shown))
+    balance = given.problem.predict.balances[run.name]
+    bench = completed(given.problem.predict.bench, hypothesis, values)
+    np.testing.assert_array_equal(told, replace(balance, noise=0.0).predicted(bench))
+    assert (fitted != told).any() and (fitted == told).any()
 
 
 def test_the_noise_is_that_of_the_forces():
