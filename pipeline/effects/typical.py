@@ -12,7 +12,7 @@ from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from pipeline.physics.virtual_rig.inputs import run_inputs
 from pipeline.physics.virtual_rig.response import respond, run_drive
-from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, NORMAL_FORCE, VELOCITY, Sensor
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, JOINT_FORCE, NORMAL_FORCE, VELOCITY, Sensor
 
 #: kinds of location that an effect can have: ``contact`` is a group of contacts, ``contacts`` all together, ``pressed
 #: contact`` a group that can open (a friction joint cannot), ``contact row`` one whose contacts lie one behind the
@@ -107,12 +107,9 @@ def typical(kind, bench, location, runs):
         channels.append(Sensor("force", NORMAL_FORCE, location))
         along = bench.model.contacts.tangent[bench.contacts(location)].mean(axis=0)
     others = _beside(bench, row) if kind == JOINT else {}
-    channels += [Sensor(f"{what} {k}", way, f"{_SENSOR} {k}") for k in others
-                 for what, way in (("length", DISPLACEMENT), ("speed", VELOCITY))]
-    model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR, _SLIP,
-                                              *(f"{_SENSOR} {k}" for k in others)),
-                    sensor_rows=np.vstack((bench.model.sensor_rows, row, along,
-                                           *(bench.model.joints.rows[k] for k in others))))
+    channels += [Sensor(f"{_SENSOR} {name}", JOINT_FORCE, name) for name in others]
+    model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR, _SLIP),
+                    sensor_rows=np.vstack((bench.model.sensor_rows, row, along)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
     if kind in _CONTACTS:
         contacts, members = bench.model.contacts, bench.contacts(location)
@@ -135,25 +132,23 @@ def _shares(bench, row, rows):
 
 
 def _beside(bench, row):
-    """{index of a joint: share of its force} of the joints that move what one along ``row`` moves; none where contacts
-    press, whose loads say more."""
+    """{joint: share of its force} of the joints that move what one along ``row`` moves; none where contacts press,
+    whose loads say more."""
     if len(bench.model.contacts.area) or not row.any():
         return {}
     shares = _shares(bench, row, bench.model.joints.rows)
-    return {int(k): float(shares[k]) for k in np.flatnonzero(shares > _LITTLE)}
+    return {name: float(share) for name, share in zip(bench.model.joints.name, shares, strict=True) if share > _LITTLE}
 
 
 def _moved(bench, row, runs, seen, others):
     """Largest values ``seen`` of a joint with the largest force on what it moves: the less a nominal model has at a
     place, the less would be looked for there."""
-    model, joints = bench.model, bench.model.joints
-    sizes = [share * (joints.stiffness[k] * seen.pop(f"length {k}") + joints.damping[k] * seen.pop(f"speed {k}"))
-             for k, share in others.items()]
+    model = bench.model
+    sizes = [share * seen.pop(f"{_SENSOR} {name}") for name, share in others.items()]
     if not others:
         return seen
-    pushed = [share * abs(force) for share, name in zip(_shares(bench, row, model.input_rows), model.input_name,
-                                                        strict=True)
-              for run in runs for force in [np.abs(_input(bench, run, name)).max()]]
+    pushed = [share * float(np.abs(_input(bench, run, name)).max()) for run in runs for share, name in zip(
+        _shares(bench, row, model.input_rows), model.input_name, strict=True) if name not in model.moved_ends]
     return seen | {"force": float(max([seen["force"], *sizes, *pushed])), "pushed": float(max(pushed, default=0.0))}
 
 
