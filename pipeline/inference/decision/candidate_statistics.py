@@ -121,11 +121,12 @@ def _varying(fit, indices, weights, rules, beside=False):
 
 
 def _at_edges(fit, null, rules):
-    """Sentences on values at the edge of their priors: nominal ones at the end of what can be, those of an effect that
-    priors all but exclude, sizes of either sign at an end of their range."""
-    size = len(null.latent)
-    yield from fit.excluded(LATENT_LIMIT - 1e-6, range(size))
-    yield from fit.excluded(rules.calibration.excluded, range(size, len(fit.latent)))
+    """Sentences on values at the edge of their priors: nominal ones, and sizes that are all but none, at the end of
+    what can be; others of an effect that priors all but exclude; sizes of either sign at an end of their range."""
+    size, own = len(null.latent), range(len(null.latent), len(fit.latent))
+    gone = [k for k in own if fit.hypothesis.parameters[k].sign * fit.latent[k] < 0]
+    yield from fit.excluded(LATENT_LIMIT - 1e-6, (*range(size), *gone))
+    yield from fit.excluded(rules.calibration.excluded, set(own).difference(gone))
     for parameter, latent in zip(fit.hypothesis.parameters[size:], fit.latent[size:], strict=True):
         low, high = parameter.prior.support
         value, within = parameter.prior.value(latent), (1 - _EDGE) * (high - low)

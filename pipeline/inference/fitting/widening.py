@@ -17,8 +17,8 @@ def widened(catalogue, results, null, rules):
         fit, candidate = result.fit, catalogue[i]
         if fit is None or fit.weights.max() * fit.betters(null) <= 2 * rules.decision.evidence_gain:
             continue
-        parameters = tuple(p.widened(WIDER) if u > rules.calibration.excluded else p
-                           for p, u in zip(candidate.parameters, abs(fit.latent[size:]), strict=True))
+        parameters = tuple(p.widened(WIDER) if (p.sign * u or abs(u)) > rules.calibration.excluded else p
+                           for p, u in zip(candidate.parameters, fit.latent[size:], strict=True))
         if parameters != candidate.parameters:
             wider[i] = replace(candidate, parameters=parameters)
     return wider

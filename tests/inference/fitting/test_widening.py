@@ -1,12 +1,17 @@
 """A prior that is too narrow neither hides nor gives up what is there; one that the case states is told."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from pipeline.inference.diagnosis import Settings
+from pipeline.inference.fitting.widening import widened
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
+from pipeline.inference.problem import Hypothesis
 from pipeline.inference.procedure import diagnose
+from pipeline.inference.rules import DEFAULTS
 from tests.inference import linear
 
 
@@ -34,6 +39,18 @@ def test_a_prior_that_the_case_states_is_told_instead():
 
 def test_nothing_is_found_under_wide_priors_where_nothing_is_missing():
     assert solved(0.015, truth=0.0).decision.verdict in ("consistent", "parameters")
+
+
+def test_a_size_that_is_all_but_none_is_not_widened():
+    size = Parameter("size", "1", 0.2, HalfNormal(1.0), 0.0)
+    null, laws = SimpleNamespace(latent=np.zeros(1)), (Hypothesis("law", (("law", "here"),), (size,)),)
+
+    def ended(latent):
+        return {0: SimpleNamespace(fit=SimpleNamespace(latent=np.array([0.0, latent]), weights=np.ones(1),
+                                                       betters=lambda _: 1e3))}
+
+    assert not widened(laws, ended(-8.0), null, DEFAULTS) and not widened(laws, ended(4.9), null, DEFAULTS)
+    assert widened(laws, ended(8.0), null, DEFAULTS)[0].parameters[0].prior == HalfNormal(10.0)
 
 
 def test_sizes_alone_are_widened():
