@@ -1,11 +1,17 @@
 """Recorded runs as balances of forces: measured displacements put into the equation of motion, nothing simulated.
 
 What counts as observed is the force that the inputs put on each coordinate; the model says what force the measured
-motion needs: the applied one and what is left of the equation of motion (``physics.equation_residual``). What is left
-is counted in the size of the measured motion: a gain that reads the motion smaller would make it vanish, whatever is
-missing. For that reason a run without any force has no balance to compare.
+motion needs: the applied one and what is left of the equation of motion (``physics.equation_residual``).
+
+    M q'' + C q' + ... - f,    in N of the force as recorded, and of the motion as recorded where a gain makes it less
+
+No factor on every term makes it vanish, whatever is missing: neither a gain with masses and dampings as much smaller,
+nor one that makes the motion small. A run without any force has no balance to compare. A body at rest under rigid
+dry friction is held by any force up to that of friction; what this takes off the noise of the balance is put back as
+noise, or friction would explain noise.
 """
 
+import zlib
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,7 +19,16 @@ import numpy as np
 from pipeline.case_models.runs import Recorded
 from pipeline.contract import ConfigError
 from pipeline.physics.time_stepping.simulate import Start
-from pipeline.physics.virtual_rig.force_residual import applied_force, coordinates, forces_missing, smoothed, thinned
+from pipeline.physics.virtual_rig.force_residual import (
+    applied_force,
+    coordinates,
+    forces_missing,
+    held_at_rest,
+    missing_beside_rest,
+    rate_doubt,
+    smoothed,
+    thinned,
+)
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
@@ -28,8 +43,8 @@ class Balance:
     """One recorded run: ``seen`` (Recorded) holds the applied forces (n, m) in N, one channel a coordinate.
 
     ``run`` is the Run behind it, ``measured`` {channel: (samples,)} its displacements, ``equation`` the section;
-    ``size`` (n,) m is the standard deviation of the motion as the given bench reads it; ``motions`` holds the last
-    filtered one.
+    ``size`` (n,) m is the standard deviation of the motion as the given bench reads it, ``rate_doubt`` (n, samples) m/s
+    that to which its speed is known, ``noise`` (n,) N that of the balance; ``motions`` holds the last filtered one.
     """
 
     seen: Recorded
@@ -37,15 +52,36 @@ class Balance:
     measured: dict
     equation: object
     size: np.ndarray
+    rate_doubt: np.ndarray | None = None
+    noise: np.ndarray | float = 0.0
     motions: dict = field(default_factory=dict, compare=False)
 
     def predicted(self, bench):
         """Forces (n, m) in N that the measured motion needs on this bench. ConfigError as of ``equation_residual``."""
         motion = self._motion(bench)
-        size = motion.std(axis=1)
-        as_measured = np.divide(self.size, size, out=np.ones(len(size)), where=size > 0)
-        left = as_measured[:, None] * forces_missing(bench, self.run, motion)
-        return self.seen.samples + thinned(left, self.equation.decimation, self.equation.trim)
+        left, resting = missing_beside_rest(bench, self.run, motion, self.rate_doubt)
+        counted, left, lost = self._counted(bench, motion)[:, None], self._thinned(left), 0.0
+        if resting:
+            shares = [np.clip(self._thinned(r.share[None])[0], 0.0, 1.0) for r in resting]
+            resting = [r._replace(share=share) for r, share in zip(resting, shares, strict=True)]
+            left, taken = held_at_rest(left, resting, np.broadcast_to(self.noise, len(left)))
+            draw = np.random.default_rng(zlib.crc32(self.run.name.encode())).standard_normal(left.shape)
+            lost = np.sqrt(taken) * np.reshape(self.noise, (-1, 1)) * draw
+        return self.seen.samples + counted * left + lost
+
+    def _counted(self, bench, motion):
+        """Factor (n,) of what is left on this bench: no gain of an input, or of a channel that makes the motion small,
+        makes it less."""
+        size, inputs = motion.std(axis=1), bench.model.input_rows.tobytes()
+        if inputs not in self.motions:
+            applied = applied_force(bench, self.run, self.equation.decimation, self.equation.trim)
+            ways = [np.sqrt(np.mean(force**2)) for force in (self.seen.samples, applied)]
+            self.motions[inputs] = ways[0] / ways[1] if min(ways) > 0 else 1.0
+        as_measured = np.maximum(np.divide(self.size, size, out=np.ones(len(size)), where=size > 0), 1.0)
+        return as_measured * self.motions[inputs]
+
+    def _thinned(self, values):
+        return thinned(values, self.equation.decimation, self.equation.trim)
 
     def left(self, bench):
         """(forces in N, displacements in m, velocities in m/s), each (n, m): forces missing on the coordinates."""
@@ -80,7 +116,8 @@ def balance(bench, recorded, equation):
     seen = Recorded(thin, channel_names(bench), ("N",) * len(applied), applied, np.ones(applied.shape, bool),
                     recorded.repeat_of)
     size = smoothed(bench, recorded.run, measured, equation.corner).std(axis=1)
-    return Balance(seen, recorded.run, measured, equation, size)
+    doubt = rate_doubt(bench, recorded.run, measured, equation.corner)
+    return Balance(seen, recorded.run, measured, equation, size, doubt)
 
 
 def refuse_unforced(name, applied, noise):

@@ -12,7 +12,7 @@ from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from pipeline.physics.virtual_rig.inputs import run_inputs
 from pipeline.physics.virtual_rig.response import respond, run_drive
-from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, NORMAL_FORCE, VELOCITY, Sensor
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, JOINT_FORCE, NORMAL_FORCE, VELOCITY, Sensor
 
 #: kinds of location that an effect can have: ``contact`` is a group of contacts, ``contacts`` all together, ``pressed
 #: contact`` a group that can open (a friction joint cannot), ``contact row`` one whose contacts lie one behind the
@@ -25,6 +25,8 @@ SIDEWAYS, CHANNEL_PAIR = "sideways contact", "pair of channels"
 PAIR_MARK = " and "
 #: the only location of a Rubbing, and its kind
 ASPERITIES = "asperities"
+#: share of a force below which it hardly moves a place
+_LITTLE = 0.01
 _CONTACTS, _SENSOR, _SLIP = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical", "typical slip"
 
 
@@ -35,7 +37,7 @@ class Typical:
     ``stiffness`` N/m, ``damping`` N s/m, effective ``mass`` kg, ``length`` m, ``speed`` m/s (of the drive, for
     contacts; of their motion along sliding where it rests), ``force`` N, ``pressure`` Pa, ``time`` s of the longest
     run, ``interval`` s between samples, ``drive`` rad/s where something turns, ``shown``: largest value in units of
-    the channel.
+    the channel, ``pushed`` N of the inputs along a joint, however far it moves.
     """
 
     stiffness: float = 1.0
@@ -49,6 +51,7 @@ class Typical:
     interval: float = 1.0
     drive: float = 1.0
     shown: float = 1.0
+    pushed: float = 0.0
 
     @property
     def period(self):
@@ -61,9 +64,9 @@ class Typical:
         return self.stiffness if self.stiffness > 0 else self.force / self.length
 
     def scaled(self, factor):
-        """The quantities with amplitudes times ``factor``; contact loads stay."""
-        return replace(self, length=factor * self.length, speed=factor * self.speed, force=factor * self.force,
-                       shown=factor * self.shown)
+        """The quantities with amplitudes times ``factor``; contact loads and inputs stay."""
+        return replace(self, length=factor * self.length, speed=factor * self.speed, shown=factor * self.shown,
+                       force=max(factor * self.force, self.pushed))
 
 
 def locations(kind, bench):
@@ -103,6 +106,8 @@ def typical(kind, bench, location, runs):
     if kind in _CONTACTS:
         channels.append(Sensor("force", NORMAL_FORCE, location))
         along = bench.model.contacts.tangent[bench.contacts(location)].mean(axis=0)
+    others = _beside(bench, row) if kind == JOINT else {}
+    channels += [Sensor(f"{_SENSOR} {name}", JOINT_FORCE, name) for name in others]
     model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR, _SLIP),
                     sensor_rows=np.vstack((bench.model.sensor_rows, row, along)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
@@ -113,10 +118,40 @@ def typical(kind, bench, location, runs):
         seen["pressure"] = seen["force"] / contacts.area[members].sum()
     else:
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]
+    if kind == JOINT:
+        seen = _moved(bench, row, runs, seen, others)
     if kind == INPUT:
         seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, location)).max()) for run in runs))
     mass = felt_mass(bench, row) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
+
+
+def _shares(bench, row, rows):
+    """(k,): how far forces along ``rows`` (k, n) move what one along ``row`` (n,) moves."""
+    return abs(rows.reshape(-1, len(row)) @ np.linalg.solve(bench.model.mass, row)) * felt_mass(bench, row)
+
+
+def _beside(bench, row):
+    """{joint: share of its force} of the joints that move what one along ``row`` moves; none where contacts press,
+    whose loads say more."""
+    if len(bench.model.contacts.area) or not row.any():
+        return {}
+    shares = _shares(bench, row, bench.model.joints.rows)
+    return {name: float(share) for name, share in zip(bench.model.joints.name, shares, strict=True) if share > _LITTLE}
+
+
+def _moved(bench, row, runs, seen, others):
+    """Largest values ``seen`` of a joint with the largest force on what it moves, of inputs sqrt(2) times their root
+    mean square, which blows do not rule: the less a nominal model has at a place, the less would be looked for there.
+    """
+    model = bench.model
+    sizes = [share * seen.pop(f"{_SENSOR} {name}") for name, share in others.items()]
+    if not others:
+        return seen
+    pushed = [share * float(np.sqrt(2 * np.mean(np.square(_input(bench, run, name))))) for run in runs
+              for share, name in zip(_shares(bench, row, model.input_rows), model.input_name, strict=True)
+              if name not in model.moved_ends]
+    return seen | {"force": float(max([seen["force"], *sizes, *pushed])), "pushed": float(max(pushed, default=0.0))}
 
 
 def _turns(bench, runs):

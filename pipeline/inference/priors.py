@@ -5,7 +5,7 @@
 bounds hold for every u, and the prior's term of a least-squares problem is |u|^2 whatever its family.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -205,7 +205,8 @@ class Parameter:
     ``nominal`` is its value before the data; ``null`` the value at which the effect that owns it vanishes exactly,
     None for a nominal parameter or one that only shapes an effect. Both in ``unit``, SI. ``run``: name of the run whose
     prediction alone it changes, as its start state does; empty: it may change all. ``threshold``: whether it says from
-    where on an effect acts, as a gap does, so that slopes at one value say little of others.
+    where on an effect acts, as a gap does, so that slopes at one value say little of others. ``stated``: whether the
+    case states its prior.
     """
 
     name: str
@@ -216,6 +217,7 @@ class Parameter:
     run: str = ""
     threshold: bool = False
     within: tuple = (-np.inf, np.inf)
+    stated: bool = False
 
     def __post_init__(self):
         low, high = self.prior.support
@@ -223,6 +225,17 @@ class Parameter:
             if value is not None and not low <= value <= high:
                 raise ConfigError(f"parameter {self.name}: {what}", f"a value between {low:g} and {high:g}",
                                   f"{value:g} ({self.prior})", "change the value or its prior")
+
+    def widened(self, factor):
+        """The Parameter of a size with a prior ``factor`` times as wide; itself where it is none, where its prior is
+        stated, and where that is no normal one about the null."""
+        prior = self.prior
+        about_null = isinstance(prior, HalfNormal) or isinstance(prior, Normal) and prior.mean == self.null
+        if self.null is None or self.stated or not about_null:
+            return self
+        wide = HalfNormal(factor * prior.scale) if isinstance(prior, HalfNormal) else replace(prior,
+                                                                                              std=factor * prior.std)
+        return replace(self, prior=wide)
 
     @property
     def discrete(self):

@@ -170,6 +170,11 @@ class Problem:
                 raise ConfigError(f"run {run.name}: repeat_of", f"one of {', '.join(names)}", run.repeat_of)
 
     @property
+    def shown(self):
+        """The forward model without what only keeps fits honest, as noise in place of what a law takes off it."""
+        return getattr(self.predict, "plain", self.predict)
+
+    @property
     def training(self):
         return tuple(run for run in self.runs if not run.held_out)
 

@@ -80,7 +80,8 @@ class Asked:
         told = decided(refits, settings, base)
         if len(simple) == len(self.catalogue) or reaches_noise(told, settings.rules):
             return refits, told
-        catalogue = (*simple, *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
+        catalogue = (*refits.refitter.catalogue,
+                     *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
         screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
         refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
         if refits.overtake(calibration):

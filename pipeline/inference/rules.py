@@ -71,6 +71,9 @@ class DecisionRules:
     """What must hold before an effect is named, and what counts as a misfit."""
 
     posterior: float = threshold(0.9, "posterior of the named set among all candidates that break no rule")
+    leads: float = threshold(0.05, "posterior without which nothing is told as the leading explanation")
+    one_factor: float = threshold(1.5, "factor by which a candidate that moves all nominal values alike explains"
+                                       " nothing")
     outweighed: float = threshold(1.0, "posterior of the candidates that break no rule over that of those that do")
     p_value: float = threshold(0.01, "family-wise p-value, over the whole catalogue")
     evidence_gain: float = threshold(5.0, "log evidence over the recalibrated nominal model", "nat")
@@ -86,7 +89,10 @@ class DecisionRules:
     tolerance: float = threshold(0.05, "relative spread of coefficients that does not matter")
     varies: float = threshold(4.0, "standard deviations by which a value may follow time or the size of the motion"
                                    " along the runs")
-    varies_by: float = threshold(0.1, "relative change of a value along the runs that does not matter")
+    varies_by: float = threshold(0.1, "relative change of a value along the runs that does not matter; beyond, it is"
+                                      " told beside the name")
+    varies_too_much: float = threshold(0.5, "relative change of a value along the runs at which its law is of another"
+                                            " form: no real law is exact")
     from_null: float = threshold(2.0, "distance of the coefficient from its null in standard deviations")
     unexplained: float = threshold(0.05, "fraction of the excess error that the named effect may leave")
     held_out_left: float = threshold(0.1, "the same on held-out runs, whose conditions may be new")

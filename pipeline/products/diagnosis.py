@@ -140,7 +140,7 @@ class Diagnosis:
     channel_unit: Array = text("channel", "their SI units")
     named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")
     known: Array = count("known", "rows of the hypotheses that were assumed known (first of a pair, all but one of several)")
-    leading: Array = count("leading", "row of the hypothesis that explains most beyond chance where nothing is named; none where no candidate helps")
+    leading: Array = count("leading", "row of the hypothesis that explains most beyond chance where nothing is named, then of those at its place that take nearly as much; none where no candidate helps")
     leading_takes: Array = quantity("1", "leading", "share of the excess error that it takes, on held-out runs where they can tell, else on all")
     leading_stays: Array = quantity("1", "leading", "share that stays beyond the doubt about noise")
     noise_level: Array = quantity("1", "level", "noise as a multiple of what is known of it")

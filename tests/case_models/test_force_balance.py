@@ -9,8 +9,9 @@ from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.corrections import corrected
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.force_balance import balance, channel_names, measured_start
-from pipeline.case_models.runs import recorded
+from pipeline.case_models.runs import Recorded, recorded
 from pipeline.contract import ConfigError
+from pipeline.physics.virtual_rig.response import Run
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
 
 BALANCED = {"forward": "equation", "equation": {"corner": "20 Hz", "decimation": 4, "trim": 60}}
@@ -50,6 +51,52 @@ def test_no_gain_closes_the_balance_by_making_the_motion_small():
     errors = [(one.predicted(corrected(bench, {"channels.x.gain": gain})) - one.seen.samples).std()
               for gain in (1.0, 2.0, 1e3)]
     assert errors[0] < errors[1] < errors[2]
+
+
+@pytest.mark.exact
+def test_no_factor_on_all_terms_makes_what_is_left_less():
+    """A gain of .1 beside masses, dampings and stiffnesses of a tenth once left a tenth of what was missing."""
+    bench, runs, settings = rig(HIDDEN)
+    one = balance(bench, runs["level_2"], settings.equation)
+    tenth = {"masses.block": 0.1, "joints.mount.stiffness": 40.0, "joints.mount.damping": 0.12}
+
+    def left(values):
+        return one.predicted(corrected(bench, values)) - one.seen.samples
+
+    np.testing.assert_allclose(left(tenth | {"channels.x.gain": 0.1}), left({}), atol=1e-9)
+    np.testing.assert_allclose(left(tenth | {"inputs.shaker.gain": 0.1}), left({}), atol=1e-9)
+
+
+def sticking(force=0.036, torque=0.05, inertia=2e-4, rate=250.0, count=1500):
+    """(angle, torque) of a shaft under Coulomb friction that a slow torque turns to and fro: it rests a third of the
+    time, exactly, and its angle is read in steps of 2 mrad."""
+    steps, angle, speed = 80, np.empty(count), 0.0
+    time = np.arange(count * steps) / (rate * steps)
+    drive, place = torque * np.sin(np.pi * time), 0.0
+    for k, applied in enumerate(drive):
+        if k % steps == 0:
+            angle[k // steps] = place
+        free = speed + applied / inertia * time[1]
+        speed = np.sign(free) * max(abs(free) - force / inertia * time[1], 0.0)
+        place += speed * time[1]
+    return 2e-3 * np.round(angle / 2e-3), drive[::steps]
+
+
+def test_at_rest_only_what_exceeds_the_friction_is_left():
+    """The sign of a rate that is noise once made this friction err by up to twice itself wherever the shaft rested."""
+    angle, torque = sticking()
+    bench = benches.built(model(), laid_out(**BALANCED, corrections={
+        "masses.block": "0.2 g", "joints.mount.stiffness": "0 N/m", "joints.mount.damping": "0 N s/m"}))
+    run = Run("slow", (len(angle) - 1) / 250.0, 250.0, {"shaker": torque})
+    one = balance(bench, Recorded(run, ("x",), ("m",), angle[None], np.ones((1, len(angle)), bool), ""),
+                  laid_out(**BALANCED).equation)
+    rubbing = with_effects(bench, effects({"coulomb": {"mount": {"force": "36 mN"}}}))
+    left = one.predicted(rubbing) - one.seen.samples
+    as_sign = replace(one, rate_doubt=None).predicted(rubbing) - one.seen.samples
+    assert left.std() < 0.04 * 0.036 and as_sign.std() > 0.3 * 0.036
+    noisy = replace(one, noise=2e-3).predicted(rubbing) - one.seen.samples
+    resting = abs(left[0]) < 1e-12
+    assert 0.2 < resting.mean() < 0.5 and noisy[0, resting].std() == pytest.approx(2e-3, rel=0.2), "noise stays noise"
 
 
 def test_a_run_without_a_force_is_refused_with_the_form_that_fits():

@@ -12,10 +12,15 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.diagnosis.signals.forward_model import completed
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.response import Run, respond
+from stages.lumped import Settings as LumpedSettings
+from stages.lumped import lumped
+from stages.reduced_model import Settings as ReductionSettings
+from stages.reduced_model import reduced_model
 from tests.case_models.test_force_balance import BALANCED
-from tests.diagnosis.small_rig import HIDDEN, RATE, SAMPLES, effects, laid_out, model, recording
+from tests.diagnosis.small_rig import HIDDEN, LUMPED, RATE, SAMPLES, effects, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.3}},
          "held_out": ["level_4"], "noise": {"std": {"force on block": "0.2 N"}},
@@ -71,6 +76,51 @@ def test_no_gain_explains_a_decay_by_making_it_small():
     gain, = (w for w in found.weighed if "sensor_gain" in w.candidate.name)
     assert found.decision.verdict != "sensor" and gain.statistics.posterior < 0.5
     assert gain.fit.objective > 0.97 * found.null.objective, "it takes the noise of the force channel at most"
+
+
+def test_a_gain_beside_free_masses_is_told_and_not_weighed():
+    spreads = {name: {"spread": 0.3} for name in ("masses.block", "joints.mount.stiffness", "joints.mount.damping")}
+    found = asked(HIDDEN, parameters=spreads, effects=["coulomb", "sensor_gain", "unit_factor"]).solved()
+    assert {"sensor_gain at x", "unit_factor at x"} <= set(found.failures)
+    assert "a gain of x cannot be told from the masses" in found.failures["sensor_gain at x"]
+    assert found.decision.verdict != "sensor" and not any(w.candidate.kind == "sensor" for w in found.weighed)
+
+
+def test_places_that_are_one_coordinate_are_one_place_and_no_tie():
+    wall = {"between": ["block.x", "ground"], "damping": "0.1 N s/m"}
+    rig = {**LUMPED, "springs": {**LUMPED["springs"], "wall": wall}}
+    rubbing = reduced_model(lumped(settings=fill(LumpedSettings, rig, "lumped")), settings=ReductionSettings())
+    settings = laid_out(**BALANCED)
+    section = {**ASKED, "effects": ["cubic_stiffness", "coulomb"]}
+    found = force_balance_problem(benches.built(rubbing, settings), recorded(recording(HIDDEN, noise=1e-5), settings),
+                                  fill(Settings, section, "diagnosis"), settings.equation).solved()
+    assert found.decision.verdict == "missing" and found.named[0].candidate.effects[0][0] == "cubic_stiffness"
+    assert found.decision.named[0].posterior == pytest.approx(1.0)
+    assert any("is the same coordinate: one place with two names" in why for why in found.decision.reasons)
+
+
+def test_a_gain_beside_known_masses_is_named():
+    given = recording(noise=1e-5)
+    for run in given.runs.values():
+        run.channels["x"] = replace(run.channels["x"], samples=1.2 * run.channels["x"].samples)
+    settings = laid_out(**BALANCED)
+    section = {**ASKED, "effects": ["cubic_stiffness", "coulomb", "sensor_gain"]}
+    found = force_balance_problem(benches.built(model(), settings), recorded(given, settings),
+                                  fill(Settings, section, "diagnosis"), settings.equation).solved()
+    assert found.decision.verdict == "sensor"
+    assert found.named[0].fit.values["sensor_gain@x.error"] == pytest.approx(0.2, abs=0.01)
+
+
+def test_errors_that_are_told_are_those_of_the_balance_alone():
+    """Noise stands in for what friction at rest takes off it in fits only: stage bench shows the same error."""
+    given = asked(HIDDEN, effects=["coulomb"])
+    hypothesis, (run, *_) = given.problem.nominal.joined(given.candidates[0]), given.problem.runs
+    values = hypothesis.values(np.full(len(hypothesis.parameters), 1.5))
+    fitted, told = (predict(hypothesis, values, run) for predict in (given.problem.predict, given.problem.shown))
+    balance = given.problem.predict.balances[run.name]
+    bench = completed(given.problem.predict.bench, hypothesis, values)
+    np.testing.assert_array_equal(told, replace(balance, noise=0.0).predicted(bench))
+    assert (fitted != told).any() and (fitted == told).any()
 
 
 def test_the_noise_is_that_of_the_forces():

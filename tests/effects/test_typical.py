@@ -36,6 +36,19 @@ def test_sizes_of_a_swinging_mass():
 
 
 @pytest.mark.exact
+def test_the_force_at_a_joint_is_the_largest_on_what_it_moves():
+    """A wall of which nothing is assumed carries nothing: what rubs there is as large as what the spring carries."""
+    bench, run = sprung(damping=0.0), let_go(0.02)
+    model = bench.model
+    joints = replace(model.joints, name=(*model.joints.name, "wall"), rows=np.vstack((model.joints.rows, [[1.0]])),
+                     stiffness=np.append(model.joints.stiffness, 0.0), damping=np.append(model.joints.damping, 0.0))
+    walled = replace(bench, model=replace(model, joints=joints, input_name=("push",), input_rows=np.array([[0.5]])))
+    assert typical(JOINT, walled, "wall", (run,)).force == pytest.approx(8.0, rel=1e-3)
+    pushed = typical(JOINT, walled, "wall", (replace(run, inputs={"push": 100.0}),))
+    assert (pushed.force, pushed.scaled(0.1).force) == (pytest.approx(92.0, rel=1e-3), pytest.approx(50 * 2**0.5))
+
+
+@pytest.mark.exact
 def test_sizes_of_a_contact():
     found = typical(CONTACT, slider(), "contact", (steady(speed=-3.0),))
     assert (found.force, found.speed, found.stiffness) == (pytest.approx(40.0), 3.0, 2e4)

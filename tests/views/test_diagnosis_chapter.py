@@ -98,6 +98,11 @@ def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_c
     told = dict(note(found))
     assert "takes 81\u202f% of the excess error on held-out runs, and 19\u202f% stays" in told["What is missing"]
     assert "it would be missing (coulomb at guide) at 2 times what is known of it" in told["How certain"]
+    family = diagnosis("unknown", leading=[1, 2], leading_takes=[0.81, 0.8], leading_stays=[0.19, 0.2])
+    assert "Of its family, " in dict(note(family))["What is missing"] and headline(family)[0] == headline(found)[0]
+    narrow = diagnosis("unknown", objection=["", "the prior of its force excludes the data", "", ""])
+    assert headline(narrow)[0].endswith("the fit of coulomb at guide cannot be relied on")
+    assert "coulomb at guide, cannot be relied on: the prior of its force" in dict(note(narrow))["What is missing"]
     assert "outside it" in dict(note(diagnosis("unknown")))["What is missing"]
     assert "the same at 0.5 and 2 times the noise" in dict(note(diagnosis()))["How certain"]
 

@@ -149,10 +149,11 @@ def _hypotheses(diagnosis):
 
 
 def _leading(diagnosis, table):
-    """Fields of what leads where nothing is named."""
-    first = diagnosis.decision.leading
-    return {"leading": [table["hypothesis"].index(first.name)] if first else [],
-            "leading_takes": [first.takes] if first else [], "leading_stays": [first.stays] if first else []}
+    """Fields of what leads where nothing is named, and of its family."""
+    decision = diagnosis.decision
+    every = (decision.leading, *decision.family) if decision.leading else ()
+    return {"leading": [table["hypothesis"].index(c.name) for c in every],
+            "leading_takes": [c.takes for c in every], "leading_stays": [c.stays for c in every]}
 
 
 def _levels(levels):

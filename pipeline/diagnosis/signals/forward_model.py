@@ -223,7 +223,7 @@ def _named(parameter, effect, location, priors):
     prior = prior_of(parameter.unit, parameter.nominal, priors[key], f"diagnosis.priors.{key}")
     low, high = prior.support
     size = parameter.nominal if low <= parameter.nominal <= high else prior.quantile(0.5)
-    return replace(parameter, name=name, nominal=size, prior=prior)
+    return replace(parameter, name=name, nominal=size, prior=prior, stated=True)
 
 
 def solver_candidate():

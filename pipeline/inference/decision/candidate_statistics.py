@@ -11,8 +11,11 @@ from pipeline.inference.fitting.fit_state import linearised, orthogonal, whitene
 from pipeline.inference.fitting.parameter_drift import agreement
 from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.varying_values import followed
-from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.priors import LATENT_LIMIT, LogNormal
 from pipeline.inference.search.score_screen import short_name
+
+#: share of the range of a size of either sign that counts as its end
+_EDGE = 0.01
 
 
 def held_out_gains(problem, budget, null, fits, posterior, rules):
@@ -56,18 +59,20 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
     unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
     powered = bool(gained) and (null.unordered or gained.powered(uncertainty))
     judged = gained if powered else _everywhere(gained, null, fit)
+    varying, remarks = _varying(fit, [k for k, _ in added], weights, rules.decision)
+    beside = _varying(fit, null.hypothesis.sizes, weights, rules.decision, True)
     return CandidateStatistics(
         candidate.name, candidate.kind, float(posterior), evidence.log_evidence - null_evidence.log_evidence,
         float(p_value), float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most,
         gained and gained.left(uncertainty), gained and _growth(gained, fit, uncertainty), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         "; ".join(_beyond(fit, candidate)),
-        (*unfinished(fit, null, rules.evidence), *fit.excluded(LATENT_LIMIT - 1e-6)),
+        (*unfinished(fit, null, rules.evidence), *_at_edges(fit, null, rules), *_one_factor(fit, null, rules.decision)),
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
-        tuple(_varying(fit, [k for k, _ in added], weights, rules.decision))
-        + tuple(_beside(fit, null, weights, rules.decision)), gained and gained.error,
-        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered, _nominal_p(fit, null))
+        varying + beside[0], gained and gained.error,
+        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered, _nominal_p(fit, null),
+        remarks + beside[1])
 
 
 def _beyond(fit, candidate):
@@ -97,18 +102,49 @@ def _shaped(fit, null, candidate):
     return [np.sqrt(fit.weights.max() * max(fit.betters(null), 0.0))]
 
 
-def _varying(fit, indices, weights, rules, whose="its value"):
-    """What values of an effect follow along the runs, in words."""
-    for one in (one for k in indices for one in followed(fit, k, weights)):
-        if one.deviate > rules.varies and abs(one.change) > rules.varies_by:
-            yield (f"{whose} follows {one.what} along the runs, by {abs(one.change):.0%} ({one.deviate:.1f} standard"
-                   " deviations): a law of another form")
+def _varying(fit, indices, weights, rules, beside=False):
+    """(What values of an effect follow along the runs so much that its law is of another form, what they follow less),
+    both in words; ``beside``: of effects that the nominal hypothesis takes as known."""
+    against, remarks = [], []
+    for k in indices:
+        whose = f"{fit.hypothesis.parameters[k].name}, beside it," if beside else "its value"
+        for one in followed(fit, k, weights):
+            told = (f"{whose} follows {one.what} along the runs, by {abs(one.change):.0%} ({one.deviate:.1f} standard"
+                    " deviations)")
+            if one.deviate <= rules.varies or abs(one.change) <= rules.varies_by:
+                continue
+            if abs(one.change) > rules.varies_too_much:
+                against.append(f"{told}: a law of another form")
+            else:
+                remarks.append(f"{told}: its law holds in part")
+    return tuple(against), tuple(remarks)
 
 
-def _beside(fit, null, weights, rules):
-    """The same of the effects that the nominal hypothesis takes as known."""
-    for k in null.hypothesis.sizes:
-        yield from _varying(fit, [k], weights, rules, f"{fit.hypothesis.parameters[k].name}, beside it,")
+def _at_edges(fit, null, rules):
+    """Sentences on values at the edge of their priors: nominal ones, and sizes that are all but none, at the end of
+    what can be; others of an effect that priors all but exclude; sizes of either sign at an end of their range."""
+    size, own = len(null.latent), range(len(null.latent), len(fit.latent))
+    gone = [k for k in own if fit.hypothesis.parameters[k].sign * fit.latent[k] < 0]
+    yield from fit.excluded(LATENT_LIMIT - 1e-6, (*range(size), *gone))
+    yield from fit.excluded(rules.calibration.excluded, set(own).difference(gone))
+    for parameter, latent in zip(fit.hypothesis.parameters[size:], fit.latent[size:], strict=True):
+        low, high = parameter.prior.support
+        value, within = parameter.prior.value(latent), (1 - _EDGE) * (high - low)
+        if parameter.null is not None and low < parameter.null < high and max(value - low, high - value) > within:
+            yield f"its {short_name(parameter)} of {value:.3g} is at the end of its range, {low:g} to {high:g}"
+
+
+def _one_factor(fit, null, rules):
+    """A sentence where a Fit moves all sizes of the nominal model by one factor, as the Fit ``null`` does not."""
+    def moved(one):
+        return np.array([np.log(one.values[p.name] / p.nominal) for p in null.hypothesis.parameters
+                         if isinstance(p.prior, LogNormal) and p.null is None and not p.run])
+
+    factors, before = moved(fit), moved(null)
+    least = np.log(rules.one_factor)
+    if len(factors) < 2 or abs(factors.mean()) < least or np.ptp(factors) > least / 4 or abs(before.mean()) > least / 2:
+        return ()
+    return (f"it moves all nominal values by one factor, {np.exp(factors.mean()):.2g}: what is left shrinks with them",)
 
 
 def _everywhere(gained, null, fit):

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, replace
 
+#: relative difference of numbers that are the same
+_ROUNDING = 1e-6
 VERDICTS = ("consistent", "parameters", "missing", "tie", "sensor", "numerics", "unknown")
 
 
@@ -17,9 +19,9 @@ class CandidateStatistics:
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow
-    along the runs, in words. ``held_out_error``: root mean square that it leaves there, in noise floors. ``adapts``:
-    whether it is a law of samples in time whose shape adapts to them. ``nominal_p``: p-value of the nominal values that
-    it asks for, under their priors.
+    along the runs, in words; ``remarks`` the same where it is told, and does not speak against it. ``held_out_error``:
+    root mean square that it leaves there, in noise floors. ``adapts``: whether it is a law of samples in time whose
+    shape adapts to them. ``nominal_p``: p-value of the nominal values that it asks for, under their priors.
     """
 
     name: str
@@ -47,6 +49,7 @@ class CandidateStatistics:
     held_out_error: float | None = None
     adapts: bool = False
     nominal_p: float = 1.0
+    remarks: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -75,13 +78,14 @@ class Decision:
     """``verdict``, the ``named`` CandidateStatistics (one, or all of a tie), and the ``reasons`` in words.
 
     ``leading``: where nothing is named although something is missing, the CandidateStatistics of what explains most of
-    it beyond chance; None where no candidate helps.
+    it beyond chance; None where no candidate helps. ``family``: others at its place that take about as much.
     """
 
     verdict: str
     named: tuple
     reasons: tuple
     leading: CandidateStatistics | None = None
+    family: tuple = ()
 
 
 def decide(runs, candidates, rules):
@@ -98,17 +102,38 @@ def decide(runs, candidates, rules):
         decision = replace(decision, reasons=decision.reasons + runs.excluded)
     if decision.verdict == "unknown":
         decision = replace(decision, leading=leading(significant, rules))
-    return replace(decision, reasons=decision.reasons + tuple(reasons) + _not_tested(runs, rules))
+        decision = replace(decision, family=_family(decision.leading, significant, rules))
+    remarks = tuple(f"{c.name}: {why}" for c in decision.named for why in c.remarks)
+    return replace(decision, reasons=decision.reasons + remarks + tuple(reasons) + _not_tested(runs, rules))
 
 
 def leading(significant, rules):
-    """The most probable of the ``significant`` candidates that help beyond chance on runs not fitted, or None."""
-    def helps(candidate):
-        beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
-        return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
-                and candidate.from_null >= rules.from_null and not candidate.forbidden)
+    """The most probable of the ``significant`` candidates that help beyond chance on runs not fitted, or None.
 
-    return max(filter(helps, significant), key=lambda c: c.posterior, default=None)
+    None leads whose posterior is negligible beside one that cannot be relied on.
+    """
+    helping = [c for c in significant if _helps(c, rules) and c.posterior >= rules.leads]
+    return max(helping, key=lambda c: c.posterior, default=None)
+
+
+def _helps(candidate, rules):
+    """Whether a candidate helps beyond chance on runs not fitted, by a fit that can be relied on."""
+    beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
+    return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
+            and candidate.from_null >= rules.from_null and not candidate.forbidden and not candidate.doubts
+            and candidate.nominal_p >= rules.nominal_p)
+
+
+def _family(first, significant, rules):
+    """Candidates of the kind and at the place of the ``first`` that take nearly as much: of its family, if no more."""
+    if first is None:
+        return ()
+    return tuple(c for c in significant if c is not first and c.kind == first.kind and _place(c) == _place(first)
+                 and c.takes >= rules.first_share * first.takes and _helps(c, rules))
+
+
+def _place(candidate):
+    return candidate.name.partition(" at ")[2]
 
 
 def objections(candidate, runs, rules):
@@ -175,7 +200,7 @@ def _among(survivors, rivals, runs, rules):
     total = _posterior(survivors) + _posterior(rivals)
     ordered = sorted((replace(c, posterior=c.posterior / max(total, 1e-300)) for c in survivors + rivals),
                      key=lambda c: -c.posterior)
-    named, posterior = [], 0.0
+    ordered, named, posterior = _each_once(ordered), [], 0.0
     for candidate in ordered:
         named.append(candidate)
         posterior += candidate.posterior
@@ -195,6 +220,27 @@ def _among(survivors, rivals, runs, rules):
     verdict = {"physics": "missing"}.get(best.kind, best.kind)
     return Decision(verdict, (best,), (f"{best.name}: posterior {best.posterior:.3f}, p {best.p_value:.2g} over the"
                                        f" catalogue, evidence {best.evidence_gain:.1f} over the nominal model",))
+
+
+def _each_once(candidates):
+    """The ``candidates``; of one effect at places that are one coordinate the first alone, as likely as all of it."""
+    once = []
+    for candidate in candidates:
+        k = next((k for k, first in enumerate(once) if _same(first, candidate)), None)
+        if k is None:
+            once.append(candidate)
+        else:
+            first, place = once[k], _place(candidate)
+            once[k] = replace(first, posterior=first.posterior + candidate.posterior, remarks=(
+                *first.remarks, f"{place} is the same coordinate: one place with two names"))
+    return once
+
+
+def _same(first, other):
+    """Whether two candidates are one effect that predicts the same."""
+    alike = [(one.evidence_gain, one.takes, one.unexplained, one.left_out_gain) for one in (first, other)]
+    return (first.name.partition(" at ")[0] == other.name.partition(" at ")[0]
+            and all(abs(a - b) <= _ROUNDING * (abs(a) + abs(b)) for a, b in zip(*alike, strict=True)))
 
 
 def _nothing_named(runs, rules, some_significant):

@@ -101,11 +101,13 @@ class Fit:
         """Whether no more is left than noise whose power has this relative ``uncertainty``."""
         return self.chi_square.sum() <= (1 + uncertainty) * self.counts.sum()
 
-    def excluded(self, beyond):
-        """A sentence for each parameter that lies ``beyond`` so many standard deviations of its prior."""
+    def excluded(self, beyond, among=None):
+        """A sentence for each parameter, of all or of those of the indices ``among``, that lies ``beyond`` so many
+        standard deviations of its prior."""
         return tuple(f"the prior of {p.name} excludes the data: they ask for {self.values[p.name]:.4g} {p.unit} or"
                      f" beyond, {abs(u):.1f} of its standard deviations away; check its unit, or widen the prior"
-                     for p, u in zip(self.hypothesis.parameters, self.latent, strict=True) if abs(u) > beyond)
+                     for k, (p, u) in enumerate(zip(self.hypothesis.parameters, self.latent, strict=True))
+                     if abs(u) > beyond and (among is None or k in among))
 
     def at_noise(self, factor):
         """The same values against noise ``factor`` times as large."""

@@ -15,9 +15,10 @@ from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import again, beside
 from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest
 from pipeline.inference.fitting.step_error import refined
+from pipeline.inference.fitting.widening import TIMES, widened
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import directions, least, reshaped, screen, short_name
+from pipeline.inference.search.score_screen import directions, least, rescreened, reshaped, screen, short_name
 
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 4
@@ -67,11 +68,12 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
         results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
     if not refitter.overtaken(results):
         results = refitter.settled(refitter.with_overlooked(screening, results))
+        refitter, screening, results = refitter.widened(screening, results)
     better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
     if better is calibration:
         return Refits(calibration, screening.directions, results, refitter)
     refitter = replace(refitter, null=better.null)
-    again = tuple(fan_out(partial(directions, better.problem, better.null), catalogue))
+    again = tuple(fan_out(partial(directions, better.problem, better.null), refitter.catalogue))
     return Refits(better, again, results, refitter)
 
 
@@ -237,6 +239,22 @@ class Refitter:
             if results[top].fit is before:
                 break
         return self._refined(results)
+
+    def widened(self, screening, results):
+        """(Refitter, Screening, {index: Refitted}) once sizes have been tried under wider priors that end far out of
+        theirs."""
+        for _ in range(TIMES):
+            wider = widened(self.catalogue, results, self.null, self.rules)
+            if not wider:
+                break
+            screening = rescreened(screening, wider, self.settings, self.fan_out)
+            self = replace(self, catalogue=tuple(wider.get(i, c) for i, c in enumerate(self.catalogue)))
+            results = {i: r for i, r in results.items() if i not in wider}
+            results = self.of(list(wider), screening.screen.start, results)
+            if self.explained(results):
+                results = self.with_imitators(results, screening.screen.start)
+            results = self.settled(results)
+        return self, screening, results
 
     def _refined(self, results):
         """Results with the leading ones at steps that are fine enough: first the best; then those within reach of it,

@@ -116,6 +116,16 @@ def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=F
     return Screening(calibration, every, rough, _each_once(promising, rough, settings.kept))
 
 
+def rescreened(screening, wider, settings, fan_out):
+    """The Screening with other candidates ``wider`` {index: Hypothesis}, none of which is promised again."""
+    calibration, rules = screening.calibration, settings.rules
+    again = fan_out(partial(directions, calibration.problem, calibration.null), list(wider.values()))
+    other = dict(zip(wider, again, strict=True))
+    every = tuple(other.get(i, each) for i, each in enumerate(screening.directions))
+    return replace(screening, directions=every, screen=screen(calibration.null, every, None, settings.draws,
+                                                              settings.seed, rules.screening))
+
+
 def _each_once(promising, screen, kept):
     """Indices (n,) in their order, but those of one score at one place, as of one direction, only once among the first
     ``kept``.

@@ -9,6 +9,7 @@ Technol. 21 (2013) 428).
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -18,7 +19,7 @@ from pipeline.physics.contact.groups import read
 from pipeline.physics.friction.state_variables import friction_along
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.coupled_solver import advance_wear, no_memory, surface_shift
-from pipeline.physics.time_stepping.element_forces import element_force, update_turning_dampers
+from pipeline.physics.time_stepping.element_forces import DRY, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import alone, wave_table
 from pipeline.physics.time_stepping.normal_laws import force_along
 from pipeline.physics.virtual_rig.inputs import holding, run_inputs
@@ -26,6 +27,18 @@ from pipeline.physics.virtual_rig.response import run_drive, run_friction
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 _SMALLEST_SHARE = 1e-9
+#: standard deviations of a rate below which it does not tell rest from sliding
+_RESTING = 3.0
+
+
+class Resting(NamedTuple):
+    """Rigid dry friction along ``row`` (n,) while it rests, for a ``share`` (samples,) of each sample: any force of the
+    element from -``backward`` to ``forward`` N."""
+
+    row: np.ndarray
+    share: np.ndarray
+    forward: float
+    backward: float
 
 
 def equation_residual(bench, run, measured, corner=None, order=4, decimation=1, trim=0):
@@ -87,8 +100,28 @@ def coordinates(bench, run, measured):
     return np.linalg.pinv(rows) @ np.array(values)
 
 
+def rate_doubt(bench, run, measured, corner, order=4):
+    """Standard deviation (n, samples) in m/s that the speeds of ``smoothed`` displacements are known to: what an octave
+    more of frequencies (without a ``corner``, the upper half of them) adds about every sample, noise or sharp turns.
+    """
+    motion, highest = coordinates(bench, run, measured), run.sample_rate / 2
+    low, high = corner or highest / 2, 2 * corner if corner else highest
+    less, more = (scipy.signal.sosfiltfilt(_low_pass(order, f / highest), motion, axis=1) if f < highest else motion
+                  for f in (low, high))
+    added = np.gradient(more - less, 1 / run.sample_rate, axis=1)
+    return np.sqrt(scipy.ndimage.uniform_filter1d(added**2, 2 * int(run.sample_rate / low) + 1, mode="nearest"))
+
+
 def forces_missing(bench, run, motion):
     """r (n, samples) of displacements (n, samples), differentiated by central differences."""
+    return missing_beside_rest(bench, run, motion, None)[0]
+
+
+def missing_beside_rest(bench, run, motion, doubt):
+    """(r as of ``forces_missing`` but for rigid dry friction at rest, [Resting] that it is without).
+
+    ``doubt`` as of ``rate_doubt``, None where speeds are exact.
+    """
     model, interval = bench.model, 1 / run.sample_rate
     speed = np.gradient(motion, interval, axis=1, edge_order=2)
     turning = np.broadcast_to(run_drive(bench, run), run.samples)
@@ -100,9 +133,27 @@ def forces_missing(bench, run, motion):
     angle = scipy.integrate.cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
-    residual = residual + _elements(model, motion, speed, instants, drawn, slip)
+    elements, resting = _elements(model, motion, speed, instants, drawn, slip, doubt)
+    residual = residual + elements
     residual = residual - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn)
-    return residual - _applied(bench, run)
+    return residual - _applied(bench, run), resting
+
+
+def held_at_rest(residual, resting, noise):
+    """(r less the friction (n, samples) that [Resting] may hold, share (n, samples) of its noise that this takes off).
+
+    The ``noise`` (n,) N is that of r. A force that may lie anywhere up to F is known to F / sqrt(3) beforehand: beside
+    more noise than that, what is seen of r is noise, and nothing is taken off.
+    """
+    taken = np.zeros_like(residual)
+    for row, share, forward, backward in resting:
+        square = max(row @ row, 1e-300)
+        variance = (forward + backward)**2 / 12 * share**2
+        likely = variance / np.maximum(variance + row**2 @ noise**2 / square**2, 1e-300)
+        residual = residual + np.outer(row, likely * np.clip(-row @ residual / square, -backward * share,
+                                                             forward * share))
+        taken += np.outer(row**2 / square, 1 - (1 - likely)**2)
+    return residual, np.clip(taken, 0.0, 1.0)
 
 
 def _applied(bench, run):
@@ -113,11 +164,17 @@ def _applied(bench, run):
     return bench.model.input_rows.T @ forces
 
 
-def _elements(model, motion, speed, instants, drawn, slip):
-    """sum_k b_k F_k (n, samples), contacts being drawn at and slipping as said (c, samples)."""
+def _elements(model, motion, speed, instants, drawn, slip, doubt):
+    """(sum_k b_k F_k (n, samples), [Resting] left out of it), contacts drawn at and slipping as said (c, samples)."""
     rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
-    kernel = alone(model.elements)
-    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel), drawn, slip)
+    kernel, rate = alone(model.elements), rows @ speed
+    force, resting = _along(kernel, rows @ motion, rate, instants, no_memory(kernel), drawn, slip), []
+    for k in () if doubt is None else np.flatnonzero((kernel.kind == DRY) & np.isinf(kernel.parameter[:, 0])):
+        still = abs(rate[k]) < _RESTING * np.sqrt(rows[k]**2 @ doubt**2)
+        force[k, still] = 0.0
+        forward, backward = kernel.parameter[k, 1:3] * (1 + kernel.parameter[k, 3])
+        resting.append(Resting(rows[k], still.astype(float), float(forward), float(backward)))
+    return rows.T @ force, resting
 
 
 @njit

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from pipeline.inference.decision import candidate_statistics as candidate_statistics_of
 from pipeline.inference.decision.candidate_statistics import (
     _beyond,
     _immaterial,
     _nominal_p,
+    _one_factor,
     candidate_statistics,
     held_out_gains,
     run_statistics,
@@ -18,6 +20,7 @@ from pipeline.inference.decision.candidate_statistics import (
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.parameter_drift import drift
+from pipeline.inference.fitting.varying_values import Following
 from pipeline.inference.priors import LATENT_LIMIT, HalfNormal, LogNormal, Normal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.rules import DEFAULTS, DecisionRules
@@ -73,6 +76,42 @@ def test_values_at_which_it_is_another_law_forbid_an_effect():
     guarded = (replace(catalogue[0], parameters=(bounded, *catalogue[0].parameters[1:])), *catalogue[1:])
     told = seen(whole, guarded, found, 1)
     assert "is below 0" in told.forbidden and not told.doubts and seen(whole, catalogue, found, 1).forbidden == ""
+
+
+def test_a_value_at_the_edge_of_its_prior_is_doubted():
+    """What is there is ten times what the prior of the candidate allows, or beyond what bounds it."""
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    for prior, why in ((HalfNormal(0.03), "the prior of effect_1_0 excludes the data"),
+                       (Uniform(-0.4, 0.3), "is at the end of its range, -0.4 to 0.3")):
+        narrow = replace(catalogue[0], parameters=(replace(catalogue[0].parameters[0], prior=prior, nominal=0.1),))
+        end = fit(whole, found[0].noises, whole.nominal.joined(narrow), np.zeros(len(found[1].latent)), whole.training)
+        told = seen(whole, (narrow,), [found[0], end], 1)
+        assert why in told.doubts[0]
+    assert not seen(whole, catalogue, found, 1).doubts
+
+
+def test_all_nominal_values_moved_by_one_factor_are_doubted():
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    sized = tuple(Parameter(p.name, "1", 1.0, LogNormal(1.0, 1.0)) for p in whole.nominal.parameters)
+
+    def moved(fitted, *logs):
+        hypothesis = replace(fitted.hypothesis, parameters=sized + fitted.hypothesis.parameters[len(sized):])
+        return replace(fitted, hypothesis=hypothesis, latent=np.concatenate((logs, fitted.latent[len(sized):])))
+
+    null, tenth = moved(found[0], 0.0, 0.1), moved(found[1], -2.3, -2.31)
+    assert "moves all nominal values by one factor, 0.1" in _one_factor(tenth, null, DEFAULTS.decision)[0]
+    assert not _one_factor(tenth, moved(found[0], -2.3, -2.3), DEFAULTS.decision), "so does the nominal model alone"
+    assert not _one_factor(moved(found[1], -2.3, 0.4), null, DEFAULTS.decision)
+
+
+@pytest.mark.parametrize("change, named", [(0.29, True), (0.9, False)])
+def test_a_value_that_follows_time_a_little_is_told_and_one_that_follows_it_much_is_of_another_law(change, named,
+                                                                                              monkeypatch):
+    monkeypatch.setattr(candidate_statistics_of, "followed", lambda *_: [Following("time", change, 12.0)])
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    told = seen(whole, catalogue, found, 1)
+    assert (bool(told.remarks), bool(told.varying)) == (named, not named)
+    assert f"its value follows time along the runs, by {change:.0%}" in (*told.remarks, *told.varying)[0]
 
 
 def test_the_right_effect_beats_its_decoy_on_held_out_runs():

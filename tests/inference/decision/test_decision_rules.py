@@ -148,11 +148,28 @@ def test_what_helps_beyond_chance_leads_where_nothing_is_named(broken):
 
 
 @pytest.mark.parametrize("broken", [{"takes": 0.04}, {"unfitted_errors": 2.9}, {"left_out_gain": -1.0},
-                                    {"forbidden": "its friction is negative"}, {"p_value": 0.02}])
+                                    {"forbidden": "its friction is negative"}, {"p_value": 0.02},
+                                    {"doubts": ("its prior excludes the data",)}, {"nominal_p": 1e-5},
+                                    {"posterior": 6e-27}])
 def test_nothing_leads_that_does_not_help(broken):
     partly = replace(GOOD, **{"takes": 0.81, "stays": 0.19, "unexplained": 0.19, **broken})
     told = decide(FOUR, [partly], DecisionRules())
     assert told.verdict == "unknown" and told.leading is None
+
+
+def test_the_leading_one_comes_with_its_family():
+    """Dahl and Jenkins at the joint both take nearly all: dry friction there, of a form that is open."""
+    dahl = replace(GOOD, name="dahl at joint", takes=0.98, unexplained=0.19)
+    jenkins, elsewhere = (replace(dahl, name=name, posterior=1e-9) for name in ("jenkins at joint", "jenkins at wall"))
+    spring = replace(jenkins, name="cubic_stiffness at joint", takes=0.5)
+    told = decide(FOUR, [dahl, jenkins, elsewhere, spring, replace(jenkins, doubts=("no",))], DecisionRules())
+    assert (told.verdict, told.leading, told.family) == ("unknown", dahl, (jenkins,))
+    assert decide(FOUR, [spring], DecisionRules()).family == ()
+
+
+def test_what_a_value_follows_a_little_is_told_beside_the_name():
+    told = decide(FOUR, [replace(GOOD, remarks=("its value follows time along the runs, by 29%",))], DecisionRules())
+    assert told.verdict == "missing" and "friction: its value follows time along the runs, by 29%" in told.reasons
 
 
 def test_rules_are_the_users():

@@ -10,7 +10,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Polynomial, Power, iwan
 from pipeline.physics.time_stepping.simulate import Hard, Penalty
-from pipeline.physics.virtual_rig.force_residual import applied_force, equation_residual, thinned
+from pipeline.physics.virtual_rig.force_residual import Resting, applied_force, equation_residual, held_at_rest, thinned
 from pipeline.physics.virtual_rig.response import Bench, Run, respond
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.physics.lumps import belt, lumps
@@ -114,3 +114,20 @@ def test_without_any_motion_what_is_left_is_the_applied_force():
     still = {name: np.zeros(run.samples) for name in ("one", "two")}
     still["one"] = still["one"] + 0.1
     np.testing.assert_allclose(equation_residual(pair(), run, still), -applied_force(pair(), run), atol=1e-9)
+
+
+@pytest.mark.exact
+def test_friction_at_rest_takes_what_it_can_hold():
+    row, share = np.array([1.0, -1.0]), np.array([1.0, 1.0, 0.0])
+    left, taken = held_at_rest(np.array([[3.0, -9.0, 3.0], [-3.0, 9.0, -3.0]]), [Resting(row, share, 5.0, 4.0)],
+                               np.zeros(2))
+    np.testing.assert_allclose(left, [[0.0, -4.0, 3.0], [0.0, 4.0, -3.0]])
+    np.testing.assert_allclose(taken, [[0.5, 0.5, 0.0]] * 2)
+
+
+@pytest.mark.parametrize("force", [0.1, 0.3, 1.0, 3.0, 10.0])
+def test_friction_at_rest_explains_no_noise(force):
+    """However large, its chi^2 where noise alone is seen is no smaller than without it."""
+    noise = 0.2 * np.random.default_rng(1).standard_normal((1, 20000))
+    left, taken = held_at_rest(noise, [Resting(np.ones(1), np.ones(20000), 0.2 * force, 0.2 * force)], np.array([0.2]))
+    assert np.mean(left**2 + taken * 0.2**2) > 0.995 * np.mean(noise**2)

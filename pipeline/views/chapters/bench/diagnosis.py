@@ -96,8 +96,10 @@ def _unknown(product):
     if product.other_machine.item():
         return "The recordings do not fit this model: are they of another machine?"
     if not len(product.leading):
-        return f"Unmodelled physics{_at(product)}, outside the catalogue"
-    k, = product.leading
+        doubted = _doubted(product)
+        return f"Unmodelled physics{_at(product)}, outside the catalogue" if doubted is None else \
+            f"Unmodelled physics{_at(product)}; the fit of {_effect(product, doubted)} cannot be relied on"
+    k = product.leading[0]
     takes = percent(product.leading_takes[0], 2)
     return f"Leading explanation, not confirmed: {_effect(product, k)}; takes {takes} of the excess error"
 
@@ -107,13 +109,24 @@ def _leading(product):
     if product.other_machine.item():
         return product.other_machine.item()
     if not len(product.leading):
-        return "No effect of the catalogue helps beyond chance: the physics lies outside it."
-    k, = product.leading
+        doubted = _doubted(product)
+        return "No effect of the catalogue helps beyond chance: the physics lies outside it." if doubted is None else (
+            f"The most probable explanation, {_effect(product, doubted)}, cannot be relied on:"
+            f" {product.objection[doubted]}.")
+    k, *family = product.leading
     judged = "of the excess error on held-out runs" if any(r.held_out for r in product.runs.values()) else \
         "of the excess error"
     return (f"The leading explanation is {_effect(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
             f" probability): it takes {percent(product.leading_takes[0], 2)} {judged}, and"
-            f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise.")
+            f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise."
+            + (f" Of its family, {_listed([_effect(product, each) for each in family])} would take nearly as much: the"
+               " form of the law is open." if family else ""))
+
+
+def _doubted(product):
+    """Row of the most probable hypothesis if its fit is doubted, else None."""
+    first = int(np.argmax(product.posterior))
+    return first if first and str(product.objection[first]) else None
 
 
 def _levels(product):
