@@ -15,6 +15,7 @@ from pipeline.diagnosis.published_lists import Models, published_problem
 from pipeline.diagnosis.rough_pair import rough_pair_problem
 from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.diagnosis.signals.balanced_bench import balanced_bench
 from pipeline.diagnosis.signals.start_states import started
 from pipeline.diagnosis.signals.substitution import substituted
 from pipeline.products import (
@@ -107,7 +108,7 @@ def _of_signals(inputs, settings, context):
     bench, rig = _bench(inputs, settings)
     runs = recorded(inputs.recording, rig, inputs.model)
     if rig.forward == "equation":
-        return force_balance_problem(bench, runs, settings, rig.equation)
+        return force_balance_problem(balanced_bench(bench, runs), runs, settings, rig.equation)
     return substituted(forced_problem(bench, started(bench, runs, rig), settings), inputs.recording, settings)
 
 

@@ -85,7 +85,8 @@ class Settings(Laws):
         "simulation", "simulation: runs are simulated; equation: measured displacements are put into the equation of"
         " motion, and its forces are compared with those applied")
     equation: Equation = option(Equation(), "how that is done")
-    step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly")
+    step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly; not needed where"
+                                                " forward is equation")
     speed: Quantity("rad/s") = option("1 rad/s", "speed of the drive where a run tells none")
     channels: dict[str, ChannelSettings] = option({}, "recorded channel: what it shows")
     inputs: dict[str, Fed] = option({}, "input of the model: the recorded channel that feeds it")

@@ -10,6 +10,7 @@ import click
 
 import stages
 from pipeline import __version__
+from pipeline.cli.bench.check import check
 from pipeline.cli.export import export
 from pipeline.cli.facts import facts
 from pipeline.cli.first_use import compiled
@@ -313,6 +314,7 @@ def data_format():
 
 
 data.add_command(export)
+cli.add_command(check)
 cli.add_command(run_export)
 cli.add_command(facts)
 cli.add_command(compiled)
