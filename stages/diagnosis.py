@@ -7,16 +7,13 @@ from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis.force_balance import force_balance_problem
-from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.files import companions
 from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.published_lists import Models, published_problem
 from pipeline.diagnosis.rough_pair import rough_pair_problem
 from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.diagnosis.signals.balanced_bench import balanced_bench
-from pipeline.diagnosis.signals.start_states import started
+from pipeline.diagnosis.signals.posed import posed
 from pipeline.diagnosis.signals.substitution import substituted
 from pipeline.products import (
     Bench,
@@ -107,9 +104,8 @@ def _of_signals(inputs, settings, context):
     """Recorded time signals against simulated ones, or measured motions in the equation of motion."""
     bench, rig = _bench(inputs, settings)
     runs = recorded(inputs.recording, rig, inputs.model)
-    if rig.forward == "equation":
-        return force_balance_problem(balanced_bench(bench, runs), runs, settings, rig.equation)
-    return substituted(forced_problem(bench, started(bench, runs, rig), settings), inputs.recording, settings)
+    problem = posed(bench, runs, settings, rig)
+    return problem if rig.forward == "equation" else substituted(problem, inputs.recording, settings)
 
 
 def _bench(inputs, settings):

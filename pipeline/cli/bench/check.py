@@ -60,14 +60,10 @@ def _form(rig):
 def _of_model(bench, runs, rig, asked):
     """Lines from one linearisation about the nominal values."""
     from pipeline.diagnosis.experiment_design.what_runs_tell import NEEDED, telling
-    from pipeline.diagnosis.force_balance import force_balance_problem
-    from pipeline.diagnosis.forced_response import forced_problem
-    from pipeline.diagnosis.signals.balanced_bench import balanced_bench
-    from pipeline.diagnosis.signals.start_states import started
+    from pipeline.diagnosis.signals.posed import posed
 
-    posed = (force_balance_problem(balanced_bench(bench, runs), runs, asked, rig.equation)
-             if rig.forward == "equation" else forced_problem(bench, started(bench, runs, rig), asked))
-    seen = telling(posed, asked.kept, _BUDGET)
+    problem = posed(bench, runs, asked, rig)
+    seen = telling(problem, asked.kept, _BUDGET)
     yield from _signs(seen, rig)
     told = [name for name in seen.kept if name not in seen.silent]
     if told:
@@ -87,7 +83,7 @@ def _of_model(bench, runs, rig, asked):
                + (f"; not: {_listed(weak)}" if weak else ""))
     if seen.untried:
         yield f"not tried within {_BUDGET:g} s: {_listed(list(seen.untried))}"
-    yield (f"a prediction of all runs takes {seen.seconds:.2g} CPU s; the diagnosis of {len(posed.candidates)}"
+    yield (f"a prediction of all runs takes {seen.seconds:.2g} CPU s; the diagnosis of {len(problem.candidates)}"
            f" candidates roughly {_rounded(seen.cost)}")
 
 

@@ -10,6 +10,8 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
+from pipeline.case_models.effect_block import with_bare
+
 #: rate of the vibration of a coordinate without a mass, over the rate of its samples
 _FASTER = 10.0
 #: steps in a period of the highest mode
@@ -19,6 +21,10 @@ _STEPS = 4.0
 def balanced_bench(bench, recorded):
     """The Bench for the balances of {name: Recorded}."""
     rate = max(record.run.sample_rate for record in recorded.values())
+    return with_bare(bench, lambda each: _balanced(each, rate))
+
+
+def _balanced(bench, rate):
     model = _with_masses(bench.model, 2 * np.pi * _FASTER * rate)
     mass, _, stiffness = model.supported()
     highest = np.sqrt(max(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)[-1], 0.0)) / (2 * np.pi)
