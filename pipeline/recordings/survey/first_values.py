@@ -176,7 +176,7 @@ def _fitted(q, v, a, target, wanted):
         negative = [kind in ("mass", "stiffness", "damping") and i == j and x <= 0
                     for (kind, i, j), x in zip(keys, solution, strict=True)]
         poor = [k for k, (kind, i, j) in enumerate(keys) if negative[k] or (
-            share[k] < _LITTLE and kind != "mass" and not (kind == "damping"))]
+            share[k] < _LITTLE and kind not in ("mass", "damping"))]
         if not poor:
             break
         worst = min(poor, key=lambda k: (not negative[k], share[k]))
