@@ -13,14 +13,18 @@ from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.virtual_rig.response import Bench
 from pipeline.physics.virtual_rig.sensor import MEASURANDS, Sensor, measurand
 
+#: what positive values of channels mean, in the words of the schema
+SIGNS = ("positive: a motion along the sensor, joint_force in tension (between: [a, b], a beyond b), normal_force in"
+         " compression, friction_force on the rubbing mass along tangent, element_force against the elongation, input"
+         " as it acts")
 #: most contacts of a group that an answer lists by name
 _READABLE = 6
 
 
 class ChannelSettings(Section):
-    """What a recorded channel shows of the model."""
+    """What a recorded channel shows of the model; gain -1 for one that counts the other way."""
 
-    quantity: str = option(..., f"one of {', '.join(MEASURANDS)}")
+    quantity: str = option(..., f"one of {', '.join(MEASURANDS)}; {SIGNS}")
     source: str = option(..., "sensor, joint, contact group, element or input whose quantity it shows")
     gain: float | None = option(None, "in SI units shown per SI unit; none = 1, of a channel in the unit of its"
                                       " quantity")

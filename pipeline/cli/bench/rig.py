@@ -61,8 +61,10 @@ def rig(paths):
     if not data:
         raise ConfigError(files[0].path, f"a run of {_FEWEST} samples or more", "none")
     remarks = [f"{file.path.name}: {remark}" for file in files for remark in file.remarks]
-    return Rig(files, runs, how, chosen, _values(files, chosen, data, used), _held_out(files, chosen, data),
-               _noise(chosen, data), _start(chosen, data), remarks)
+    held_out = _held_out(files, chosen, data)
+    fitted = {name: each for name, each in data.items() if name != held_out}
+    return Rig(files, runs, how, chosen, _values(files, chosen, fitted, used), held_out, _noise(chosen, fitted),
+               _start(chosen, data), remarks)
 
 
 def si(signal, values):

@@ -146,13 +146,15 @@ def _lumped(rig, bodies):
                          f" {value}}}   # <- what both move")
     lines.append("  springs:")
     for k, name in enumerate(names):
-        lines.append(_spring(_joint(bodies, turns, k), [name, "ground"], v.stiffness[k].sum(), _damping(rig, k),
+        lines.append(_spring(_joint(bodies, turns, k), f"between: [{name}, ground]", _held(v, k), _damping(rig, k),
                              turns[k], still))
-    for i in range(len(bodies)):
-        for j in range(i):
-            if v.stiffness[i, j] < 0:
-                lines.append(_spring(f"link_{j + 1}{i + 1}", [names[j], names[i]], -v.stiffness[i, j], None, turns[i],
-                                     still))
+    lines += [_spring(name, f"between: [{names[j]}, {names[i]}]" if v.stiffness[i, j] < 0 else
+                      f"along: {{{names[j]}: 1, {names[i]}: 1}}", abs(v.stiffness[i, j]), None, turns[i], still)
+              for name, i, j in _links(v)]
+    if any(turns):
+        swings = ", ".join(f"{name}: 1" for name in names[:1])
+        lines.append(f"  # pendulums: {{gravity: {{swings: {{{swings}}}, mass: 0.5 kg, length: 0.2 m}}}}   # <- where a weight"
+                     " hangs on an axis that lies; by the sum of angles on the arm before")
     lines += _inputs(rig, bodies, names, turns) + ["  sensors:"]
     for k, s in enumerate(roles.responses):
         quantity = ("displacement", "velocity", "acceleration")[roles.order]
@@ -168,6 +170,17 @@ def _joint(bodies, turns, k):
     return stem if len(bodies) == 1 else f"{stem}_{k + 1}"
 
 
+def _held(values, k):
+    """Stiffness of a support: what couplings do not carry."""
+    return 2 * values.stiffness[k, k] - np.abs(values.stiffness[k]).sum()
+
+
+def _links(values):
+    """[(name, i, j)] of the springs that couple coordinates: along their difference, or their sum."""
+    return [(f"link_{j + 1}{i + 1}", i, j) for i in range(len(values.stiffness)) for j in range(i)
+            if values.stiffness[i, j]]
+
+
 def _damping(rig, k):
     """Damping of a support: as fitted, else a hundredth of what carries it; next to none of what falls."""
     v = rig.values
@@ -175,14 +188,14 @@ def _damping(rig, k):
         return 1e-3 * float(v.size[k])
     if v.damping[k] > 0:
         return float(v.damping[k])
-    stiff, mass = max(v.stiffness[k].sum(), 0.0), v.mass[k, k]
+    stiff, mass = max(v.stiffness[k, k], 0.0), v.mass[k, k]
     return float(0.02 * np.sqrt(stiff * mass)) if stiff > 0 and mass > 0 else 0.01 * max(mass, 1e-6)
 
 
-def _spring(name, between, stiffness, damping, turns, still):
+def _spring(name, ends, stiffness, damping, turns, still):
     kind = ("torsional_stiffness", "torsional_damping", "N m/rad", "N m s/rad") if turns else (
         "stiffness", "damping", "N/m", "N s/m")
-    parts = [f"between: [{', '.join(between)}]"]
+    parts = [ends]
     if stiffness > 0:
         parts.append(f"{kind[0]}: {{value: {stiffness:.4g} {kind[2]}, {_INFERRED}}}")
     if damping is not None and not still:
@@ -261,13 +274,11 @@ def _diagnosis(rig, bodies):
         if not free and not still:
             lines.append(f"    masses.{body}: {{spread: 0.3}}" if len(bodies) == 1 else
                          f"    bodies.{body}.mass: {{spread: 0.3}}")
-        if v.stiffness[k].sum() > 0:
+        if _held(v, k) > 0:
             lines.append(f"    joints.{joint}.stiffness: {{spread: 0.2}}")
         if not still and not _falls(rig):
             lines.append(f"    joints.{joint}.damping: {{spread: 0.7}}")
-    for i in range(len(bodies)):
-        lines += [f"    joints.link_{j + 1}{i + 1}.stiffness: {{spread: 0.2}}" for j in range(i)
-                  if v.stiffness[i, j] < 0]
+    lines += [f"    joints.{name}.stiffness: {{spread: 0.2}}" for name, _, _ in _links(v)]
     if _falls(rig):
         lines += [f"    inputs.weight_{k + 1}.gain: {{spread: 0.01}}" for k, f in enumerate(v.constant) if f]
     for signal, k in roles.drives:
