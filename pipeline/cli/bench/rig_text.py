@@ -152,9 +152,8 @@ def _lumped(rig, bodies):
                       f"along: {{{names[j]}: 1, {names[i]}: 1}}", abs(v.stiffness[i, j]), None, turns[i], still)
               for name, i, j in _links(v)]
     if any(turns):
-        swings = ", ".join(f"{name}: 1" for name in names[:1])
-        lines.append(f"  # pendulums: {{gravity: {{swings: {{{swings}}}, mass: 0.5 kg, length: 0.2 m}}}}   # <- where a weight"
-                     " hangs on an axis that lies; by the sum of angles on the arm before")
+        lines.append(f"  # pendulums: {{gravity: {{swings: {{{names[0]}: 1}}, mass: 0.5 kg, length: 0.2 m}}}}"
+                     "   # <- where a weight hangs on the axis")
     lines += _inputs(rig, bodies, names, turns) + ["  sensors:"]
     for k, s in enumerate(roles.responses):
         quantity = ("displacement", "velocity", "acceleration")[roles.order]
