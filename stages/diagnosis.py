@@ -9,8 +9,6 @@ from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
 from pipeline.contract.errors import sentence_of
-from pipeline.diagnosis.force_balance import force_balance_problem
-from pipeline.diagnosis.forced_response import check_names, forced_problem
 from pipeline.diagnosis.output.files import companions
 from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.output.unsolved import unsolved
@@ -18,9 +16,8 @@ from pipeline.diagnosis.published_lists import Models, published_problem
 from pipeline.diagnosis.rough_pair import rough_pair_problem
 from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.diagnosis.signals.start_states import started
+from pipeline.diagnosis.signals.posed import posed
 from pipeline.diagnosis.signals.substitution import substituted
-from pipeline.diagnosis.signals.usable_runs import without
 from pipeline.products import (
     Bench,
     ComplexModes,
@@ -121,12 +118,8 @@ def _of_signals(inputs, settings, context):
     """Recorded time signals against simulated ones, or measured motions in the equation of motion."""
     bench, rig = _bench(inputs, settings)
     runs = recorded(inputs.recording, rig, inputs.model)
-    if rig.forward == "equation":
-        return force_balance_problem(bench, runs, settings, rig.equation)
-    check_names("held_out", settings.held_out, runs)
-    runs = started(bench, runs, rig, refused := {})
-    return substituted(forced_problem(bench, runs, without(settings, refused), tuple(refused.values())),
-                       inputs.recording, settings)
+    problem = posed(bench, runs, settings, rig)
+    return problem if rig.forward == "equation" else substituted(problem, inputs.recording, settings)
 
 
 def _bench(inputs, settings):

@@ -58,7 +58,7 @@ class Settings(Section):
 def _check(sections):
     """Build the whole system before anything is computed, and refuse histories shorter than the motion."""
     settings = sections["lumped"]
-    _built(settings)
+    _built(settings, massless=getattr(sections.get("bench"), "forward", None) == "equation")
     timed = settings.drive is not None or any(i.history for i in settings.inputs.values())
     motion = sections.get("transient")
     if timed and motion is not None and settings.histories.duration < motion.duration * (1 - 1e-9):
@@ -76,14 +76,14 @@ def lumped(settings: Settings, context: Context) -> Lumped:
     Method:
     The system was specified as masses, springs, dampers and contacts; static contact forces exclude friction.
     """
-    built = _built(settings)
+    built = _built(settings, massless=True)      # where a mass is needed, the check asked for it
     context.log(f"coordinates: {', '.join(built.coordinate_name)}")
     return built
 
 
-def _built(settings):
+def _built(settings, massless):
     masses = {name: system.Mass(m.moves, m.mass, m.inertia, m.grounded) for name, m in settings.masses.items()}
-    coordinates = system.coordinates(masses, "lumped.masses")
+    coordinates = system.coordinates(masses, "lumped.masses", massless)
     joints = joint_fields(settings.springs, settings.pendulums, coordinates)
     contacts = _contacts(settings.contacts, coordinates)
     inputs = _inputs(settings, coordinates, joints)

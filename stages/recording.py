@@ -16,7 +16,7 @@ from pipeline.recordings.apart import runs, waveforms
 from pipeline.recordings.columns import read_table
 from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
-from pipeline.recordings.samples import channel, even_rate, on_grid, steady_tone, stretch
+from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, steady_tone, stretch
 from pipeline.recordings.waveform import SPELT, free_name, plain_name
 from pipeline.validation.published_facts import load
 
@@ -48,6 +48,8 @@ class Stretch(Section):
 
     begin: Quantity("s") | None = option(None, "first instant; none = that of the record")
     end: Quantity("s") | None = option(None, "instant before which it ends; none = end of the record")
+    rows: tuple[int, int] | None = option(None, "first row of a file of columns, counted from 0, and the one behind its"
+                                                " last, where times begin anew in one file; none = all")
     description: str = option("", "what was done")
     repeat_of: str = option("", "run that it repeats: repeats give the noise")
     conditions: dict[str, Given] = option({}, "conditions by name")
@@ -57,7 +59,10 @@ class _Columns(Section):
     file: InputFile = option(..., "the file; measured:NAME for a public one")
     columns: dict[str, Column] = option(..., "channels by name", min_length=1)
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate; none = from the column of times")
-    time: str | None = option(None, "column with the time in seconds; with a sampling rate it tells lost samples")
+    time: str | None = option(None, "column with the times; with a sampling rate it tells lost samples")
+    time_unit: str = option("s", "unit of the times")
+    resample: Quantity("Hz", gt=0) | None = option(
+        None, "rate of an even grid on which samples of uneven times are interpolated; none = times are even")
     runs: dict[str, Stretch] = option(..., "runs by name: declared stretches of the record", min_length=1)
 
 
@@ -187,7 +192,7 @@ def recording(settings: Settings, context: Context) -> Recording:
 
     Method:
     Recordings were converted to SI units and cut into runs as stated in the case. Missing samples are marked; nothing
-    was filtered or resampled.
+    was filtered, and only what the case says was resampled.
     """
     collected, source = {}, []
     for number, file in enumerate(settings.files):
@@ -224,13 +229,17 @@ class _Refused:
 
 def _from_columns(file, columns, refused):
     """Runs of a file of columns."""
-    where = f"{file.file}"
+    where, found = f"{file.file}", {}
     _refuse_unknown(file, columns, f"{where}: ")
-    values = {name: w.factor * columns[w.column] for name, w in file.columns.items()}
-    values, rate, begin = _sampled(file, values, columns, f"{where}: time")
-    return _cut(file.runs, refused.channels({
-        name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
-                      place=w.place, direction=w.direction) for name, w in file.columns.items()}), where, refused)
+    for rows in dict.fromkeys(run.rows for run in file.runs.values()):
+        part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
+        values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
+        values, rate, begin = _sampled(file, values, part, f"{where}: time")
+        whole = refused.channels({
+            name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
+                          place=w.place, direction=w.direction) for name, w in file.columns.items()})
+        found |= _cut({name: run for name, run in file.runs.items() if run.rows == rows}, whole, where, refused)
+    return {name: found[name] for name in file.runs}
 
 
 def _cut(runs, whole, where, refused):
@@ -256,6 +265,9 @@ def _from_waveforms(file, refused):
     if not whole:
         raise ConfigError(where, "a channel that can be used", f"none of {', '.join(names)}",
                           "name channels under 'columns', with unit and what they measure")
+    rows = next((name for name, run in file.runs.items() if run.rows is not None), None)
+    if rows is not None:
+        raise ConfigError(f"{where}: runs.{rows}.rows", "begin and end, in s: the file has no rows", "rows")
     return _cut(file.runs or {plain_name(file.file.stem, "run"): Stretch()}, whole, where, refused)
 
 
@@ -314,9 +326,12 @@ def _sampled(file, values, columns, where):
         raise ConfigError(where, "a sampling rate or a column of times", "neither", "add sample_rate or time")
     if file.time is None:
         return values, file.sample_rate, 0.0
+    time = np.asarray(in_si(columns[file.time], file.time_unit, f"{where}_unit")[0])
+    if file.resample is not None:
+        return *interpolated(values, time, file.resample, where), float(time[0])
     if file.sample_rate is None:
-        return values, *even_rate(columns[file.time], where)
-    spread, begin = on_grid(values, columns[file.time], file.sample_rate, where)
+        return values, *even_rate(time, where)
+    spread, begin = on_grid(values, time, file.sample_rate, where)
     return spread, file.sample_rate, begin
 
 

@@ -11,6 +11,7 @@ Factors are of the given model; ``frequency`` is that of all modes of a body hel
 at the same mass, and ``damping`` of body and those joints; ``modal_mass`` is of mass, damping and stiffness of body and
 those joints, which keep their frequencies; ``friction.stiffness`` is that of a contact before it slides.
 Bodies of one coordinate also have masses.NAME in kg. What acts about an axis has N m/rad, N m s/rad, N m and kg m^2.
+Effects that the case states have EFFECT@LOCATION.PARAMETER, as in coulomb@guide.force.
 """
 
 from dataclasses import replace
@@ -20,6 +21,7 @@ from operator import itemgetter
 
 import numpy as np
 
+from pipeline.case_models.effect_block import MARK, restated
 from pipeline.contract import ConfigError
 from pipeline.contract.units import TURNED, to_si
 from pipeline.physics.friction.friction_table import FrictionLaw
@@ -47,7 +49,8 @@ def known(bench):
     for channel in bench.channels:
         units |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s"}
     turned = {name for name in units if name in model.turning or name.rpartition(".")[0] in model.turning}
-    return {name: TURNED.get(unit, unit) if name in turned else unit for name, unit in units.items()}
+    stated = {} if bench.stated is None else {name: unit for name, (_, unit) in bench.stated.numbers().items()}
+    return {name: TURNED.get(unit, unit) if name in turned else unit for name, unit in units.items()} | stated
 
 
 def read(bench, given, where):
@@ -66,6 +69,8 @@ def read(bench, given, where):
 def nominal(bench, name, where="parameters"):
     """The value that the bench has now; 1 of a factor."""
     unit = _known(name, known(bench), where)
+    if MARK in name:
+        return float(bench.stated.numbers()[name][0])
     kind, name_of, what = _steps(name)
     if kind == "joints":
         row = bench.model.joints.name.index(name_of)
@@ -81,12 +86,17 @@ def nominal(bench, name, where="parameters"):
 
 def is_factor(name):
     """Whether a number counts as a factor on what the model has, so that 1 leaves it as it is."""
+    if MARK in name:
+        return False
     kind, _, what = _steps(name)
     return kind in ("bodies", "friction") or name == "contact.stiffness" or (kind == "inputs" and what == "gain")
 
 
 def corrected(bench, values):
     """The bench with ``values`` {name: SI value} in place of its own."""
+    stated = {name: value for name, value in values.items() if MARK in name}
+    if stated:
+        bench, values = restated(bench, stated), {n: v for n, v in values.items() if n not in stated}
     changes = [(*_steps(name), value) for name, value in values.items()]
     for kind, alike in groupby(changes, key=itemgetter(0)):
         if kind == "joints":

@@ -3,9 +3,12 @@
     effects:
       falling_friction: {contact: {rise: 0.2, decay_speed: 100 mm/s}}         # effect: {location: {parameter: value}}
       conditions: {humidity: 0.8}             # what some effects depend on, where no recorded run states it
+
+A bench keeps its terms and what it was without them, so that it can be composed anew with other values: numbers of it
+that may be wrong, EFFECT@LOCATION.PARAMETER.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from pipeline.contract import ConfigError, Quantity, option, section
 from pipeline.effects import CATALOGUE, named
@@ -13,6 +16,9 @@ from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import ASPERITIES, Typical
 from pipeline.physics.friction.dry_friction import under
 from pipeline.products import Effects
+
+#: what stands between an effect and its location in a name
+MARK = "@"
 
 
 def parameters(effect):
@@ -81,18 +87,17 @@ def product(settings):
 
 def terms(effects):
     """Terms of a product Effects; none of None, and none of an effect at its null."""
+    return tuple(term for term in _all_terms(effects) if not _vanishes(term))
+
+
+def _all_terms(effects):
     if effects is None:
         return ()
     values = [{} for _ in effects.effect]
     for term, parameter, value in zip(effects.term, effects.parameter, effects.value, strict=True):
         values[term][str(parameter)] = float(value)
-    stated = (Term(named(str(name)), str(location), given)
-             for name, location, given in zip(effects.effect, effects.place, values, strict=True))
-    return tuple(term for term in stated if not _vanishes(term))
-
-
-def _vanishes(term):
-    return all(term.values[p.name] == p.null for p in parameters(term.effect) if p.null is not None)
+    return tuple(Term(named(str(name)), str(location), given)
+                 for name, location, given in zip(effects.effect, effects.place, values, strict=True))
 
 
 def conditions(effects):
@@ -108,10 +113,58 @@ def with_effects(bench, effects, channels=True):
     those of the block.
     """
     if channels:
-        return compose(bench, _on_benches(effects))
+        return composed(bench, [t for t in _all_terms(effects) if t.location != ASPERITIES])
     acting = physics_terms(effects)
     whole = compose(bench, acting)
     return replace(whole, friction=under(whole.friction, conditions(effects), "effects")) if acting else whole
+
+
+@dataclass(frozen=True)
+class Stated:
+    """``terms`` (Terms) that a case states of the Bench ``bare``."""
+
+    bare: object
+    terms: tuple
+
+    @property
+    def pairs(self):
+        """((effect, location), ...)."""
+        return tuple((term.effect.name, term.location) for term in self.terms)
+
+    def numbers(self):
+        """{name: (value, SI unit)} of all values."""
+        return {f"{term.effect.name}{MARK}{term.location}.{p.name}": (term.values[p.name], p.unit)
+                for term in self.terms for p in parameters(term.effect)}
+
+
+def composed(bench, terms):
+    """The Bench with ``terms`` on it, which it keeps; those at their null do nothing. The bench itself without any."""
+    return replace(compose(bench, [t for t in terms if not _vanishes(t)]), stated=Stated(bench, tuple(terms))) if (
+        terms) else bench
+
+
+def restated(bench, values):
+    """The Bench with ``values`` {name: SI value} of its stated effects in place of what it has; its channels stay."""
+    def changed(term):
+        key = f"{term.effect.name}{MARK}{term.location}."
+        return Term(term.effect, term.location, {p: values.get(key + p, v) for p, v in term.values.items()})
+
+    whole, names = composed(bench.stated.bare, [changed(term) for term in bench.stated.terms]), {
+        channel.name for channel in bench.channels}
+    return replace(whole, channels=tuple(channel for channel in whole.channels if channel.name in names))
+
+
+def with_bare(bench, change):
+    """``change(bench)``, also of what the bench is without its stated effects."""
+    changed = change(bench)
+    if bench.stated is None:
+        return changed
+    return replace(changed, stated=replace(bench.stated, bare=change(bench.stated.bare)))
+
+
+def _vanishes(term):
+    """Whether a Term is at its null."""
+    return all(term.values[p.name] == p.null for p in parameters(term.effect) if p.null is not None)
 
 
 def physics_terms(effects):

@@ -13,14 +13,18 @@ from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.virtual_rig.response import Bench
 from pipeline.physics.virtual_rig.sensor import MEASURANDS, Sensor, measurand
 
+#: what positive values of channels mean, in the words of the schema
+SIGNS = ("positive: a motion along the sensor, joint_force in tension (between: [a, b], a beyond b), normal_force in"
+         " compression, friction_force on the rubbing mass along tangent, element_force against the elongation, input"
+         " as it acts")
 #: most contacts of a group that an answer lists by name
 _READABLE = 6
 
 
 class ChannelSettings(Section):
-    """What a recorded channel shows of the model."""
+    """What a recorded channel shows of the model; gain -1 for one that counts the other way."""
 
-    quantity: str = option(..., f"one of {', '.join(MEASURANDS)}")
+    quantity: str = option(..., f"one of {', '.join(MEASURANDS)}; {SIGNS}")
     source: str = option(..., "sensor, joint, contact group, element or input whose quantity it shows")
     gain: float | None = option(None, "in SI units shown per SI unit; none = 1, of a channel in the unit of its"
                                       " quantity")
@@ -85,7 +89,8 @@ class Settings(Laws):
         "simulation", "simulation: runs are simulated; equation: measured displacements are put into the equation of"
         " motion, and its forces are compared with those applied")
     equation: Equation = option(Equation(), "how that is done")
-    step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly")
+    step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly; not needed where"
+                                                " forward is equation")
     speed: Quantity("rad/s") = option("1 rad/s", "speed of the drive where a run tells none")
     channels: dict[str, ChannelSettings] = option({}, "recorded channel: what it shows")
     inputs: dict[str, Fed] = option({}, "input of the model: the recorded channel that feeds it")

@@ -11,7 +11,8 @@ import click
 
 import stages
 from pipeline import __version__
-from pipeline.cli.export import export
+from pipeline.cli.bench.check import check
+from pipeline.cli.bench.data import data
 from pipeline.cli.facts import facts
 from pipeline.cli.first_use import compiled
 from pipeline.cli.new_case import new
@@ -277,43 +278,8 @@ def plan(config, overrides, file):
         write_companion(file, "\n".join(",".join(row) for row in (head, *rows)) + "\n")
 
 
-@cli.group()
-def data():
-    """Public measurements: what is registered, and where it is stored."""
-
-
-@data.command("list")
-@options("debug")
-def list_data():
-    """List the registered files: name, content, what is not documented, licence."""
-    from pipeline.recordings import registry
-
-    for entry in registry.entries().values():
-        click.echo(f"{entry.name}\n    {entry.content}\n    lacks: {entry.lacks}\n    licence: {entry.licence}")
-
-
-@data.command("path")
-@click.argument("name")
-@options("debug")
-def data_path(name):
-    """Print the path of the registered file NAME; it is downloaded unless BRAKECHAIN_DATA names a folder."""
-    from pipeline.recordings import registry
-
-    click.echo(registry.path(name))
-
-
-@data.command("format")
-@options("debug")
-def data_format():
-    """Print the format of plain HDF5 recordings that any program can write."""
-    import inspect as source
-
-    from pipeline.recordings.neutral import read_neutral
-
-    click.echo(source.cleandoc(read_neutral.__doc__))
-
-
-data.add_command(export)
+cli.add_command(data)
+cli.add_command(check)
 cli.add_command(run_export)
 cli.add_command(facts)
 cli.add_command(compiled)

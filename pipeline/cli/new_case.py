@@ -98,14 +98,26 @@ report: {{dots_per_inch: 80, mode_pictures: 1}}
 @click.argument("name", type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--ask", is_flag=True, help="ask for the main dimensions; Enter keeps the typical value")
 @click.option("--quick", is_flag=True, help="write NAME_quick.yaml too: the same on coarse grids, for a first try")
+@click.option("--from", "recorded", multiple=True, metavar="FILE", type=click.Path(path_type=Path),
+              help="write a first diagnosis of what this file recorded instead; may be repeated, a run each")
 @options("debug")
-def new(name, ask, quick):
-    """Write NAME.yaml, a short commented case of a disc brake of your own, ready to run."""
+def new(name, ask, quick, recorded):
+    """Write NAME.yaml, a short commented case of a disc brake of your own, ready to run.
+
+    With --from it is the diagnosis of a rig whose records these files are: channels, runs, a first model.
+    """
     from pipeline.contract.store import write_companion
 
+    if recorded and (ask or quick):
+        raise click.UsageError("--from goes with neither --ask nor --quick, which are of a disc brake")
     file = name if name.suffix in (".yaml", ".yml") else name.with_name(f"{name.name}.yaml")
     files = [file, *([file.with_name(f"{file.stem}_quick.yaml")] if quick else [])]
     _refuse_taken(files)
+    if recorded:
+        from pipeline.cli.bench.new_rig import write
+
+        write(file, recorded)
+        return
     answers = {key: _answer(key) for key in ASKED} if ask else {}
     for each, written in zip(files, (text(file, answers), quick_text(file)), strict=False):
         write_companion(each, written)

@@ -117,12 +117,12 @@ def _seen(bench, runs, units, settings, effects):
     noises, directions, jacobians = budget(problem), [], []
     for run in blank:
         null = linearised(problem, [noises[run.name]], problem.nominal, problem.nominal.nominal, [run])
-        directions.append([_change(problem, null, candidate) for candidate in effects])
+        directions.append([change(problem, null, candidate) for candidate in effects])
         jacobians.append(null.jacobians[0])
     return directions, jacobians
 
 
-def _change(problem, null, candidate):
+def change(problem, null, candidate):
     """(m,) whitened change by one effect of the size that its prior expects; none where it cannot be simulated."""
     latent = np.array([p.prior.latent(p.prior.quantile(_ONE_SIGMA if p.null is not None and not p.sign else 0.5))
                        for p in candidate.parameters])

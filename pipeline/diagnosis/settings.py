@@ -97,7 +97,8 @@ class Settings(Section):
         " and worn faces against micro_friction")
     rubbing: SpotRuns = option(SpotRuns(), "forward friction: the runs of the rough pair")
     lines: ModeTable | Harmonics | SquealLines | None = option(None, "forward lines: which lists are compared, and how")
-    parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
+    parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections;"
+                                                " of an effect that the case states: coulomb@guide.force")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
     without: tuple[str, ...] = option((), "effects that are not weighed, because they are known not to be there")

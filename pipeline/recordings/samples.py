@@ -15,6 +15,8 @@ EVEN = 0.01
 _BLOCKS = 40
 #: largest distance of an instant from a declared grid, in intervals
 OFF_GRID = 0.25
+#: intervals of a grid without a sample beyond which nothing is interpolated
+GAP = 3
 
 
 def channel(values, unit, measures, rate, begin, where, *, factor=1.0, narrow=False, role="response", place="",
@@ -103,7 +105,8 @@ def even_rate(time, where):
         first += len(block)
     if interval <= 0 or off > EVEN * interval:
         raise ConfigError(where, "times at one even interval", f"a deviation of {off:.3g} s from {interval:.6g} s",
-                          "resample the record, or split it where samples were lost")
+                          "state resample: RATE, the rate of an even grid to interpolate on; where samples were lost,"
+                          " sample_rate: RATE")
     return 1 / interval, float(time[0])
 
 
@@ -126,6 +129,21 @@ def on_grid(columns, time, rate, where):
     for name, values in columns.items():
         spread[name][index] = values
     return spread, float(time[0])
+
+
+def interpolated(columns, time, rate, where):
+    """(columns on an even grid of ``rate`` Hz from the first instant, rate) of samples at uneven, rising ``time`` s.
+
+    Straight lines join samples that lie at most GAP intervals apart; between others samples are missing (NaN). Raises
+    ConfigError for times that do not rise.
+    """
+    if len(time) < 2 or not np.isfinite(time).all() or (np.diff(time) <= 0).any():
+        raise ConfigError(where, "finite times that rise from row to row", "others",
+                          "where times begin anew in one file, state the rows of each run: rows: [0, 100]")
+    grid = time[0] + np.arange(int(np.floor((time[-1] - time[0]) * rate + OFF_GRID)) + 1) / rate
+    after = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
+    lost = time[after] - time[after - 1] > GAP / rate
+    return {name: np.where(lost, np.nan, np.interp(grid, time, values)) for name, values in columns.items()}, rate
 
 
 def stretch(whole, begin, end, where):

@@ -93,8 +93,9 @@ class Coordinates:
                            f"did you mean '{near[0]}'?" if near else "name a mass and one of its moves, as in block.x")
 
 
-def coordinates(masses, where="masses"):
-    """Coordinates of ``masses`` (name -> Mass). ConfigError for unknown moves and coordinates without inertia."""
+def coordinates(masses, where="masses", massless=False):
+    """Coordinates of ``masses`` (name -> Mass). ConfigError for unknown moves and, unless they may be ``massless``, for
+    coordinates without inertia."""
     names, body, still = [], [], [GROUND]
     for index, (mass_name, mass) in enumerate(masses.items()):
         for move in mass.moves:
@@ -105,7 +106,7 @@ def coordinates(masses, where="masses"):
             if mass.grounded:
                 still.append(f"{mass_name}.{move}")
                 continue
-            _check_inertia(mass, move, f"{where}.{mass_name}")
+            _check_inertia(mass, move, f"{where}.{mass_name}", massless)
             names.append(f"{mass_name}.{move}")
             body.append(index)
     if not names:
@@ -113,10 +114,10 @@ def coordinates(masses, where="masses"):
     return Coordinates(tuple(names), tuple(body), tuple(still))
 
 
-def _check_inertia(mass, move, where):
+def _check_inertia(mass, move, where, massless):
     key, unit = ("inertia", "kg m^2") if move in ROTATIONS else ("mass", "kg")
     value = getattr(mass, key)
-    if not value > 0:
+    if not (value > 0 or (massless and value == 0)):
         raise ConfigError(f"{where}.{key}", f"above 0 {unit}, because it moves along {move}", f"{value:g} {unit}",
                           f"give it {'an inertia' if key == 'inertia' else 'a mass'}, or set grounded: true")
 

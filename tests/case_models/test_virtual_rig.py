@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import Settings as EffectSettings
+from pipeline.case_models.effect_block import product, with_effects
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
+from pipeline.physics.virtual_rig.response import Run, respond
 from stages.lumped import Settings as LumpedSettings
 from stages.lumped import lumped
 from stages.reduced_model import Settings as ReductionSettings
@@ -63,3 +66,37 @@ def test_contacts_have_the_names_of_the_case():
 def reduced(parts):
     """Product ReducedModel of a section ``lumped``."""
     return reduced_model(lumped(settings=fill(LumpedSettings, parts, "lumped")), settings=ReductionSettings())
+
+
+def test_the_signs_of_channels_are_those_of_the_table_in_the_docs():
+    """A block pulled forward by a force, by the far end of its spring, and dragged forward by a belt."""
+    def shown(document, channels, effects=None, run=None, **bench):
+        made = reduced_model(lumped(settings=fill(LumpedSettings, document, "lumped")),
+                             settings=ReductionSettings())
+        whole = benches.built(made, fill(benches.Settings, {"step": "1 ms", "channels": channels, **bench}, "bench"))
+        whole = with_effects(whole, product(fill(EffectSettings, effects or {}, "effects")))
+        return {name: float(np.mean(values[-200:])) for name, values in respond(whole, run).items()}
+
+    block = {"masses": {"block": {"mass": "1 kg", "moves": ["x"]}},
+             "springs": {"tie": {"between": ["block.x", "ground"], "stiffness": "400 N/m", "damping": "20 N s/m"}},
+             "sensors": {"x": {"along": {"block.x": 1}, "quantity": "displacement", "unit": "m"}}}
+    pulled = {**block, "inputs": {"pull": {"along": {"block.x": 1}, "force": "1 N"}}}
+    seen = shown(pulled, {"x": {"quantity": "displacement", "source": "x"},
+                          "tension": {"quantity": "joint_force", "source": "tie"},
+                          "cubic": {"quantity": "element_force", "source": "cubic_stiffness tie"},
+                          "force": {"quantity": "input", "source": "pull"}},
+                 {"cubic_stiffness": {"tie": {"coefficient": "1e5 N/m^3"}}},
+                 Run("a", 2.0, 500.0, {"pull": np.full(1001, 4.0)}))
+    assert min(seen.values()) > 0 and seen["tension"] + seen["cubic"] == pytest.approx(4.0, rel=1e-3)
+    led = {**block, "inputs": {"end": {"displaces": "tie", "displacement": "1 m"}}}
+    seen = shown(
+        {**led, "springs": {**block["springs"], "face": {"between": ["block.x", "ground"], "damping": "50 N s/m"}}},
+        {"x": {"quantity": "displacement", "source": "x"}, "tension": {"quantity": "joint_force", "source": "tie"}},
+        run=Run("a", 2.0, 500.0, {"end": 0.1 * np.arange(1001) / 500}))
+    assert seen["x"] > 0 > seen["tension"], "an end that is led forward presses its spring together"
+    belt = {**block, "contacts": {"belt": {"tangent": {"block.x": 1}, "normal_force": "10 N"}}}
+    seen = shown(belt, {"x": {"quantity": "displacement", "source": "x"},
+                        "load": {"quantity": "normal_force", "source": "contact"},
+                        "drag": {"quantity": "friction_force", "source": "contact"}},
+                 run=Run("a", 2.0, 500.0, drive=1.0), friction=0.3)
+    assert seen["x"] > 0 and seen["load"] == pytest.approx(10) and seen["drag"] == pytest.approx(3)

@@ -13,7 +13,7 @@ def test_every_entry_says_where_from_and_under_which_licence():
 
 
 def test_an_unregistered_name_is_refused():
-    with pytest.raises(ConfigError, match="measured:surfaces/none: expected one of .*surfaces/"):
+    with pytest.raises(ConfigError, match="measured:surfaces/none: expected a set, .*surfaces.*did you mean"):
         registry.path("surfaces/none")
 
 

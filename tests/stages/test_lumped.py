@@ -130,7 +130,7 @@ def test_a_reversing_drive_turns_friction_round():
 ])
 def test_what_does_not_fit_together_is_refused(change, said):
     with pytest.raises(ConfigError) as error:
-        built({**TIED, **change})
+        lumped.check({"lumped": fill(Settings, {**TIED, **change}, "case.yaml: lumped")})
     assert said in str(error.value)
 
 

@@ -22,7 +22,7 @@ class Mass(Section):
 class Spring(Section):
     """Spring and damper in parallel, between two coordinates or along a combination of several."""
 
-    between: tuple[str, str] | None = option(None, "two coordinates, or one and ground")
+    between: tuple[str, str] | None = option(None, "two coordinates, or one and ground; elongation: first less second")
     along: dict[str, str | float] | None = option(None, "elongation as a combination of coordinates")
     stiffness: Quantity("N/m") = option("0 N/m", "stiffness; below 0 it pushes away")
     damping: Quantity("N s/m", ge=0) = option("0 N s/m", "damping")
@@ -114,11 +114,12 @@ History = Harmonic | Chirp | Step | Recording
 class Input(Section):
     """A force along a combination, or a displacement imposed on the far end of a spring."""
 
-    along: dict[str, str | float] | None = option(None, "where the force acts; opposite signs: a pair of forces")
+    along: dict[str, str | float] | None = option(None, "where the force acts, positive as the coordinate counts;"
+                                                                  " opposite signs: a pair of forces")
     force: Quantity("N") | None = option(None, "force at load factor 1, or per SI unit of the history or channel")
     displaces: str | None = option(None, "the spring whose far end is moved, against its elongation")
-    displacement: Quantity("m") | None = option(None, "displacement of that end, or per SI unit of the history or"
-                                                    " channel")
+    displacement: Quantity("m") | None = option(None, "displacement of that end, positive as the first coordinate of"
+                                                    " its spring counts, or per SI unit of the history or channel")
     torque: Quantity("N m") | None = option(None, "torque along rotations alone, in place of a force")
     angle: Quantity("rad") | None = option(None, "rotation of the end of a torsional spring, in place of a"
                                                " displacement")

@@ -73,7 +73,8 @@ def completed(product, case):
         bench["corrections"] = {**(bench.get("corrections") or {}), **corrections}
     stated_effects = document["effects"] = document.get("effects") or {}
     for effect, places in effects.items():
-        stated_effects[effect] = {**stated_effects.get(effect, {}), **places}
+        known = stated_effects.get(effect, {})
+        stated_effects[effect] = known | {place: {**known.get(place, {}), **values} for place, values in places.items()}
     document["title"] = f"{document.get('title', case.name)}, completed"
     return document
 
@@ -86,6 +87,13 @@ def _correct_rubbing(document, corrections):
         for step in steps:
             section = section.setdefault(step, {})
         section[last] = value
+
+
+def _nominal(product, name):
+    """Whether a value is one of the nominal model: of no effect that the diagnosis adds."""
+    effect, location, _ = split_name(name)
+    return (effect, location) not in {pair for k in _completing(product) for pair in zip(
+        str(product.effect[k]).split(" + "), str(product.place[k]).split(" + "), strict=False)}
 
 
 def _written(product, k):
@@ -113,7 +121,7 @@ def as_json(product):
                        if product.objection[k] and not product.refitted[k]],
         "location": _location(product),
         "parameters": {str(name): _parameter(product, k)
-                       for k, name in enumerate(product.parameter) if not split_name(str(name))[2]},
+                       for k, name in enumerate(product.parameter) if _nominal(product, str(name))},
         "fit": {part: _fit(product, row, held_out) for row, (part, held_out) in enumerate(
             (("training", 0), ("held_out", 1)))},
         "unexplained_share": float(product.unexplained_share),

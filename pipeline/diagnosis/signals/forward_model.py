@@ -43,7 +43,8 @@ def observed(recorded, noise_std=None, held_out=False):
 
 def completed(bench, hypothesis, values):
     """The bench with the values of a hypothesis: corrected numbers first, then its effects."""
-    numbers = {p.name: values[p.name] for p in hypothesis.parameters if not split_name(p.name)[0]}
+    numbers = {p.name: values[p.name] for p in hypothesis.parameters
+               if split_name(p.name)[:2] in (("", ""), *(() if bench.stated is None else bench.stated.pairs))}
     return compose(corrections.corrected(bench, numbers), terms(hypothesis, values))
 
 

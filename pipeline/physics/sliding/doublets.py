@@ -17,6 +17,7 @@ def doublets(model, within=1e-3):
     for index, body in enumerate(model.body_name):
         members = np.flatnonzero(model.coordinate_body == index)
         members = members[~(_coupled(mass, members) | _coupled(stiffness, members))]
+        members = members[np.diag(mass)[members] > 0]
         frequency = np.sqrt(np.maximum(stiffness[members, members] / mass[members, members], 0.0))
         members, frequency = members[np.argsort(frequency, kind="stable")], np.sort(frequency)
         free, pairs = 0, []

@@ -78,7 +78,8 @@ class Bench:
 
     ``step`` s is the longest step taken; ``groups`` {name: indices} names contacts, all of them ``contact`` by default;
     ``doublets`` {name: (i, j)} names pairs of coordinates that are two modes of (nearly) one frequency; ``settled``:
-    runs start in steady sliding under their first inputs, else at rest in the origin.
+    runs start in steady sliding under their first inputs, else at rest in the origin. ``stated``: what a case states
+    that it lacks or has beside the model, and what it was without, for those who change the values.
     """
 
     model: SlidingModel
@@ -89,6 +90,7 @@ class Bench:
     groups: dict = field(default_factory=dict)
     settled: bool = False
     doublets: dict = field(default_factory=dict)
+    stated: object = None
 
     def contacts(self, group):
         """Indices (k,) of the contacts of ``group``."""

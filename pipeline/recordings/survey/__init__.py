@@ -1,0 +1,1 @@
+"""What files of measurements hold, before any case says what it means."""
