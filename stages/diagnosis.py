@@ -63,7 +63,7 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     context.log(f"{len(problem.candidates)} hypotheses over {len(problem.problem.training)} runs,"
                 f" {len(problem.problem.held_out)} held out")
     contacts = benches.contact_names(model) if model is not None else {}
-    result = product(problem, problem.solved(context.map), contacts)
+    result = product(problem, problem.solved(context.map, context.log), contacts)
     context.log(f"verdict: {result.verdict.item()}")
     return result
 
