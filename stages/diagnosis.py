@@ -72,7 +72,7 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
 def _answered(problem, contacts, context):
     """Product Diagnosis of a DiagnosisProblem; where it cannot be solved, unknown, with what went wrong."""
     try:
-        return product(problem, problem.solved(context.map), contacts)
+        return product(problem, problem.solved(context.map, context.log), contacts)
     except Exception as error:
         logging.getLogger(__name__).debug("the diagnosis", exc_info=error)
         result = product(*unsolved(problem, error), contacts)

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 from pipeline.inference.diagnosis import Diagnosis, Settings
 from pipeline.inference.problem import Hypothesis, Motions, Problem
 from pipeline.inference.procedure import diagnose
+from pipeline.inference.time_budget import TimeBudget
 
 
 class LocatedAxes(dict):
@@ -41,6 +42,10 @@ class Revision(Protocol):
     """What this kind of data adds to the product Diagnosis, or lets it say only with reserve."""
 
     def revised(self, product, diagnosis: Diagnosis): ...
+
+
+#: hypotheses whose time is told
+_TOLD = 3
 
 
 @dataclass(frozen=True)
@@ -86,9 +91,22 @@ class DiagnosisProblem:
     def rules(self):
         return self.settings.rules
 
-    def solved(self, fan_out=map):
-        """Diagnosis by the five steps of inference."""
-        return diagnose(self.problem, self.budget, self.candidates, self.settings, fan_out, self.motions)
+    def solved(self, fan_out=map, log=None):
+        """Diagnosis by the five steps of inference, within the time of the settings; ``log`` gets sentences: what is
+        decided first, and what took the time."""
+        time, said = TimeBudget(self.settings.seconds), log or (lambda _: None)
+
+        def tell(decision):
+            first = next(filter(None, (*decision.named, decision.leading)), None)
+            said(f"first verdict after {time.used:.0f} s: {decision.verdict}"
+                 + (f", led by {first.name}" if first else "") + "; it is sharpened")
+
+        with time.counting():
+            solved = diagnose(self.problem, self.budget, self.candidates, self.settings, time.over(fan_out),
+                              self.motions, tell)
+        most = ", ".join(f"{name} {seconds:.0f} s" for name, seconds in time.by_name.most_common(_TOLD) if name)
+        said(f"{time.used:.0f} s of a core were used" + f", most by {most}" * bool(most))
+        return solved
 
 
 def parameter_name(effect, location, parameter):

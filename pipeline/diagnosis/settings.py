@@ -115,6 +115,8 @@ class Settings(Section):
     latent_force: LatentForce = option(LatentForce(), "use of the latent force")
     saturated_squeal: SaturatedSqueal | None = option(None, "forward poles: verify by simulated squeals; none = not")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
+    time: Quantity("s", gt=0) = option("5 min", "CPU time of a core for what is fitted; what was not tried by then is"
+                                              " told, and nothing is named before all was tried")
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)
     seed: int = option(0, "seed of all draws", ge=0)
@@ -126,7 +128,7 @@ def procedure(settings, few=False, starts=ProcedureSettings.starts):
     rules = rules_stated(settings)
     if few:
         rules = replace(rules, decision=replace(rules.decision, posterior=rules.decision.posterior_of_few))
-    return ProcedureSettings(settings.kept, starts, settings.draws, settings.seed, rules)
+    return ProcedureSettings(settings.kept, starts, settings.draws, settings.seed, rules, seconds=settings.time)
 
 
 def parameter(name, unit, value, given, where):

@@ -3,19 +3,23 @@
 from dataclasses import dataclass, field, replace
 from typing import Optional
 
+import numpy as np
+
 from pipeline.inference.decision import several_laws
 from pipeline.inference.decision.decision_rules import Decision
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.refitting import Refits
 from pipeline.inference.rules import DEFAULTS, Rules
+from pipeline.inference.time_budget import spent, within
 
 
 @dataclass(frozen=True)
 class Settings:
     """``kept``: candidates refitted after the screen; ``starts``: latent values tried; ``draws``, ``seed`` of nulls.
 
-    ``tied_seconds``: whether second effects that cannot be distinguished complete a first one all the same.
+    ``tied_seconds``: whether second effects that cannot be distinguished complete a first one all the same;
+    ``seconds``: CPU time of a core.
     """
 
     kept: int = 8
@@ -24,6 +28,7 @@ class Settings:
     seed: int = 0
     rules: Rules = DEFAULTS
     tied_seconds: bool = False
+    seconds: float = np.inf
 
 
 @dataclass(frozen=True)
@@ -33,7 +38,8 @@ class Diagnosis:
     ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known, or before
     a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
     the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
-    ``laws``: how many were fitted as one set; ``objected`` {law: why it is of another form}.
+    ``laws``: how many were fitted as one set; ``objected`` {law: why it is of another form}. ``cut_short``: whether the
+    time was spent before all was tried, so that nothing may be named.
     """
 
     calibration: Calibration
@@ -45,6 +51,7 @@ class Diagnosis:
     combinations: tuple = ()
     laws: int = 1
     objected: dict = field(default_factory=dict)
+    cut_short: bool = False
 
     def remarked(self, *sentences):
         """The same with further ``sentences`` among the reasons of its decision."""
@@ -99,11 +106,43 @@ class Diagnosis:
         names = [c.name for c in self.decision.named]
         return next((w.fit for name in names for w in self.weighed if w.candidate.name == name), self.null)
 
+    def ended(self):
+        """This Diagnosis where its time was spent: what it would name leads, as what was not tried may do as well."""
+        if self.cut_short:
+            return self
+        left = tuple(name for name, why in self.failures.items() if why)
+        return replace(self, cut_short=True, decision=_not_yet(self.decision, left))
+
+
+#: hypotheses not tried to the end that are told by name
+_TOLD = 5
+
+
+def _not_yet(decision, left):
+    """A Decision that names nothing, as hypotheses of the names ``left`` were not tried to the end."""
+    which = f" ({', '.join(left[:_TOLD])}{' and others' * (len(left) > _TOLD)})" * bool(left)
+    why = (f"the time was spent before all was tried: {len(left)} hypotheses were not fitted to the end{which}; allow"
+           " more by diagnosis.time",)
+    if decision.named:
+        why += (f"so far: {decision.verdict}, {' or '.join(c.name for c in decision.named)}",)
+    return replace(decision, verdict="unknown", named=(), reasons=why + decision.reasons,
+                   leading=decision.leading or next(iter(decision.named), None))
+
 
 def decided(refits, settings, base, laws=1):
     """Diagnosis of Refits, the last of so many ``laws``; unknown where nothing is missing but nothing converged,
     however often the null begins again."""
+    late = spent()
+    with within(np.inf):        # what has been fitted is weighed in any case
+        told = _decided(refits, settings, base, laws, late)
+    return told.ended() if late else told
+
+
+def _decided(refits, settings, base, laws, late):
+    """``decided``, of fits that do not go on where it is ``late``."""
     weighing, decision = _weighed(refits, settings, base and base.null, laws)
+    if late:
+        return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
     if _rests_on_unfinished(refits, decision):
         refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))
         weighing, decision = _weighed(refits, settings, base and base.null, laws)
@@ -148,6 +187,7 @@ def over_noise(diagnosis, settings, factors):
     for factor in factors:
         _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
                                diagnosis.laws, diagnosis.objected)
+        decision = _not_yet(decision, ()) if diagnosis.cut_short else decision
         told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
     return told
 

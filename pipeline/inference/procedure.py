@@ -8,6 +8,7 @@ A null hypothesis that has not converged lets every candidate win: it is refitte
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from pipeline.inference import several
 from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
-from pipeline.inference.fitting.calibration import recalibrate
+from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 from pipeline.inference.fitting.refitted import NOT_BEGUN
@@ -25,12 +26,13 @@ from pipeline.inference.fitting.refitting import Refitter, refit_catalogue, refi
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.search.score_screen import screen_catalogue
 from pipeline.inference.search.selection import Combination, merged, sets_and_parts
+from pipeline.inference.time_budget import TimeSpentError, spent, within
 
 #: share of the best candidate's gain at which another one tells that its place matters
 _FELT = 0.05
 
 
-def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None):
+def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None, tell=None):
     """Diagnosis of a Problem with {run: Noise} ``budget`` over a ``catalogue`` of Hypotheses (effects alone).
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, the set of laws that the
@@ -38,20 +40,27 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     not show is tried in pairs with each of the leading effects by the same rules, the first taken as known. A further
     effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). What a
     named law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the
-    nominal model has no fit.
+    nominal model has no fit. ``tell(Decision)`` hears what is decided first, to be sharpened. Where the time is spent
+    (``time_budget``) before all was tried beside one law nothing is named; what else was not tried is told.
     """
     settings, problem = settings or Settings(), problem.for_all(catalogue)
-    asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out)
+    asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out, tell)
     _, single = asked.steps()
     try:
-        if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing"):
+        if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing") and not single.cut_short:
             single = (asked.along(single, motions) if motions else
                       asked.by_the_screen(asked.pairs(single, asked.catalogue)))
         if settings.tied_seconds and single.decision.verdict == "unknown":
             return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
+    except TimeSpentError:
+        pass
     except Exception as error:      # what one law alone came to stands
         single = single.remarked(f"whether several laws act together could not be weighed: {sentence_of(error)}")
-    return asked.of_its_form(single)
+    if spent() and single.base is None and not single.cut_short:
+        single = single.remarked("whether several laws act together was not tried to the end, as the time was spent;"
+                                 " allow more by diagnosis.time")
+    with within(np.inf):        # what it names is examined in any case
+        return asked.of_its_form(single)
 
 
 @dataclass(frozen=True)
@@ -63,11 +72,25 @@ class Asked:
     catalogue: tuple
     settings: Settings
     fan_out: FanOut
+    tell: Callable | None = None
 
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
         """
-        return self._from(recalibrate(self.problem, self.budget, self.settings.rules.calibration, start), base)
+        return self._from(self._recalibrated(start), base)
+
+    def _recalibrated(self, start):
+        """Calibration of the nominal model; at its given values where the time does not suffice for any fit."""
+        try:
+            return recalibrate(self.problem, self.budget, self.settings.rules.calibration, start)
+        except ConvergenceError:
+            if not spent():
+                raise
+        problem, nominal = self.problem, self.problem.nominal
+        with within(np.inf):
+            noises = tuple(self.budget[run.name] for run in problem.training)
+            return Calibration(problem, self.budget,
+                               linearised(problem, noises, nominal, nominal.nominal, problem.training))
 
     def _from(self, calibration, base):
         """The same from a Calibration; all anew from a far better one that the refits come upon."""
@@ -75,16 +98,20 @@ class Asked:
         simple = self.catalogue[:sum(not c.elaborate for c in self.catalogue)]
         screening = screen_catalogue(calibration, simple, settings, fan_out, second)
         refits = refit_catalogue(screening, simple, settings, fan_out, beside_a_first=second)
-        if refits.overtake(calibration):
+        if refits.overtake(calibration) and not spent():
             return self._from(refits.calibration, base)
         told = decided(refits, settings, base)
+        if self.tell and not second:
+            self.tell(told.decision)
         if len(simple) == len(self.catalogue) or reaches_noise(told, settings.rules):
             return refits, told
+        if spent():
+            return refits, told.ended()
         catalogue = (*refits.refitter.catalogue,
                      *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
         screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
         refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
-        if refits.overtake(calibration):
+        if refits.overtake(calibration) and not spent():
             return self._from(refits.calibration, base)
         return refits, decided(refits, settings, base)
 

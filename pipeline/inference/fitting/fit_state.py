@@ -12,6 +12,7 @@ from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceEr
 from pipeline.inference.fitting.effective_sample_size import tempering
 from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.time_budget import TimeSpentError, spent
 
 #: forward-difference step in latent coordinates
 DIFFERENCE = 1e-4
@@ -148,9 +149,12 @@ class Fit:
 
 
 def whitened(problem, noises, hypothesis, latent, runs):
-    """Whitened residuals [(m_r,)] at ``latent``; None where the forward model cannot, with its error."""
+    """Whitened residuals [(m_r,)] at ``latent``; None where the forward model cannot, or no time is left, with the
+    error."""
     values, residuals = hypothesis.values(latent), []
     for run, noise in zip(runs, noises, strict=True):
+        if spent():
+            return None, TimeSpentError()
         try:
             predicted = np.asarray(problem.predict(hypothesis, values, run), float)
         except BrakechainError as error:

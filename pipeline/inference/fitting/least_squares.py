@@ -3,12 +3,14 @@
 In latent coordinates the prior is N(0, I), so that the objective is |r(u)|^2 + |u|^2; the steps are those of ``steps``.
 """
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
 from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed
 from pipeline.inference.fitting.steps import along_valley, damped_step, newton_step, within
+from pipeline.inference.time_budget import TimeSpentError, spent
 
 ITERATIONS = 60
 #: widest forward-difference step in latent coordinates, which looks beyond kinks of the forward model
@@ -55,6 +57,14 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     it goes on along them, and from there on as before where it is nearly at its end.
     """
     state = iterated(problem, state, iterations, enough, patient)
+    try:
+        return _ended(problem, state, iterations, enough, patient)
+    except TimeSpentError:
+        return state
+
+
+def _ended(problem, state, iterations, enough, patient):
+    """The Fit once central differences tell where it ends (see ``continued``)."""
     if state.converged or state.objective > enough:
         return state
     state = _at_central_differences(problem, state)
@@ -112,35 +122,37 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
     """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
 
     A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use. A ``frugal`` one takes
-    no differences at all: it stops where the Jacobians that it has, and their updates, lead no further.
+    no differences at all: it stops where the Jacobians that it has, and their updates, lead no further. Any stops, not
+    converged, when the time of the diagnosis is spent.
     """
     damping, growth, width, objectives = 1e-3, 2.0, DIFFERENCE, []
-    for _ in range(iterations):
-        objectives.append(state.objective)
-        if (not patient and _crawls(state, objectives)) or (rough and _settles(state, objectives)):
-            break
-        expected, scale = state.promised, _scale(state)
-        if state.objective - _HOPE * expected > enough or _lags(objectives, enough):
-            break
-        if expected < _tolerance(state, scale, patient):
-            if rough or frugal or state.fresh:
-                return replace(state, converged=state.fresh and not rough)
-            state = refreshed(problem, state)
-            continue
-        moved, damping, growth = damped_step(problem, state, damping, growth, frugal)
-        if state.fresh and not frugal and (moved is None or state.objective - moved.objective < _BENT * expected):
-            moved = min(along_valley(problem, state), moved or state, key=lambda s: s.objective)
-        if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
-            state = moved
-            continue
-        if frugal:
-            break
-        if state.fresh and expected < _STALLED * scale:
-            return replace(state, converged=True)
-        if state.fresh and width >= _WIDEST:
-            break
-        width *= 10 if state.fresh else 1
-        state, damping, growth = refreshed(problem, state, width), 1e-3, 2.0
+    with suppress(TimeSpentError):
+        for _ in range(iterations):
+            objectives.append(state.objective)
+            if spent() or (not patient and _crawls(state, objectives)) or (rough and _settles(state, objectives)):
+                break
+            expected, scale = state.promised, _scale(state)
+            if state.objective - _HOPE * expected > enough or _lags(objectives, enough):
+                break
+            if expected < _tolerance(state, scale, patient):
+                if rough or frugal or state.fresh:
+                    return replace(state, converged=state.fresh and not rough)
+                state = refreshed(problem, state)
+                continue
+            moved, damping, growth = damped_step(problem, state, damping, growth, frugal)
+            if state.fresh and not frugal and (moved is None or state.objective - moved.objective < _BENT * expected):
+                moved = min(along_valley(problem, state), moved or state, key=lambda s: s.objective)
+            if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
+                state = moved
+                continue
+            if frugal:
+                break
+            if state.fresh and expected < _STALLED * scale:
+                return replace(state, converged=True)
+            if state.fresh and width >= _WIDEST:
+                break
+            width *= 10 if state.fresh else 1
+            state, damping, growth = refreshed(problem, state, width), 1e-3, 2.0
     return state
 
 

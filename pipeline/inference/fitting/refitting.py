@@ -1,5 +1,6 @@
 """Refits of candidates: from where each begins, which ones go on, and when one is given up."""
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -19,6 +20,7 @@ from pipeline.inference.fitting.widening import TIMES, widened
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
 from pipeline.inference.search.score_screen import directions, least, rescreened, reshaped, screen, short_name
+from pipeline.inference.time_budget import TimeSpentError, spent
 
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 4
@@ -193,9 +195,10 @@ class Refitter:
         """
         for _ in range(_ROUNDS):
             top = leader(results)
-            if top is None or not self._explains(results[top].fit):
+            if top is None or not self._explains(results[top].fit) or spent():
                 break
-            results = self._with_limits(top, self._beside(top, starts, results))
+            with suppress(TimeSpentError):
+                results = self._with_limits(top, self._beside(top, starts, results))
             if leader(results) == top:
                 break
         return results
@@ -232,8 +235,9 @@ class Refitter:
             if top is None or not self._explains(results[top].fit) or self._at_its_end(results[top].fit):
                 break
             before = results[top].fit
-            results = lowest(results, {top: finished(self.problem, self.null, np.inf, self.rules,
-                                                       again(self.problem, before))})
+            with suppress(TimeSpentError):
+                results = lowest(results, {top: finished(self.problem, self.null, np.inf, self.rules,
+                                                         again(self.problem, before))})
             if results[top].fit is before:
                 results = self._reshaped(top, results)
             if results[top].fit is before:

@@ -1,0 +1,94 @@
+"""The CPU time that a diagnosis may take: when it is spent fits end where they are, and what was not tried is told.
+
+    budget = TimeBudget(300.0)
+    with budget.counting():                      # in this process
+        budget.over(fan_out)(function, items)    # in others too
+
+Tasks in several processes count side by side: what the busiest process took is what they took. The verdict of a
+diagnosis that was cut short names nothing (``diagnosis.decided``), since what was not tried might have done as well.
+"""
+
+import os
+import time
+from collections import Counter
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import partial
+
+import numpy as np
+
+from pipeline.contract.errors import ConvergenceError
+
+#: whether the time of the diagnosis that runs here is spent
+_SPENT = ContextVar("time of a diagnosis", default=lambda: False)
+
+
+class TimeSpentError(ConvergenceError):
+    """No prediction is made any more."""
+
+    def __init__(self):
+        super().__init__("diagnosis", "a fit within the time of the diagnosis", "none: it was spent before",
+                         "allow more by diagnosis.time")
+
+
+def spent():
+    """Whether the time of the diagnosis that runs here is spent; never outside of one."""
+    return _SPENT.get()()
+
+
+@contextmanager
+def _until(over):
+    token = _SPENT.set(over)
+    try:
+        yield
+    finally:
+        _SPENT.reset(token)
+
+
+def within(seconds):
+    """Context in which the time is spent after so many CPU ``seconds`` of this process; np.inf: never."""
+    end = time.process_time() + seconds
+    return _until(lambda: time.process_time() >= end)
+
+
+class TimeBudget:
+    """CPU ``seconds`` of one core; ``by_name`` {hypothesis: CPU seconds} of tasks that were about one."""
+
+    def __init__(self, seconds=np.inf):
+        self.seconds, self._begin, self._elsewhere, self.by_name = seconds, time.process_time(), Counter(), Counter()
+
+    @property
+    def used(self):
+        """CPU seconds so far."""
+        return time.process_time() - self._begin + max(self._elsewhere.values(), default=0.0)
+
+    def counting(self):
+        """Context in which the time is spent once this budget is."""
+        return _until(lambda: self.used >= self.seconds)
+
+    def over(self, fan_out):
+        """``fan_out``, its tasks within what is left."""
+        def counted(function, items):
+            results = []
+            for result, name, process, took in fan_out(partial(_timed, function, self.seconds - self.used), items):
+                self.by_name[name] += took
+                if process != os.getpid():
+                    self._elsewhere[process] += took
+                results.append(result)
+            return results
+
+        return counted
+
+
+def _timed(function, seconds, item):
+    """(``function(item)``, name of the hypothesis that it is about, process, CPU seconds)."""
+    begin = time.process_time()
+    with within(seconds):
+        result = function(item)
+    return result, _name(item), os.getpid(), time.process_time() - begin
+
+
+def _name(item):
+    about = item[0] if isinstance(item, tuple) else item
+    about = getattr(about, "hypothesis", about)
+    return getattr(about, "name", "")
