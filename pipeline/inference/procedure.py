@@ -83,7 +83,7 @@ class Asked:
         """Calibration of the nominal model; at its given values where the time does not suffice for any fit."""
         try:
             return recalibrate(self.problem, self.budget, self.settings.rules.calibration, start)
-        except ConvergenceError:
+        except BrakechainError:
             if not spent():
                 raise
         problem, nominal = self.problem, self.problem.nominal
