@@ -86,8 +86,7 @@ def full_modes(about, models, modes, describe, settings, context):
     oscillating = np.array([k for k, mode in enumerate(modes) if mode.root.imag > 0], int)
     if not len(oscillating):
         return solved
-    size = about[modes[oscillating[0]].operating][0].size
-    groups = families(*(np.array([getattr(modes[k], name) for k in oscillating]) for name in ("root", "state")), size)
+    groups = families(*(np.array([getattr(modes[k], name) for k in oscillating]) for name in ("root", "state")))
     tasks = [[(*about[m.operating], m.root,
                np.concatenate([rows @ m.motion for rows in _rows(models[m.operating])]))
               for m in (modes[k] for k in oscillating[group])] for group in groups]

@@ -20,9 +20,8 @@ from pipeline.physics.sliding.shared_operator import SlidingPoint, Subspace
 _MOST, _ROUNDS = 96, 30
 #: the last change of a root, as a share of it, and a residual that is rounding, after which there is none
 _ROOT, _EXACT = 1e-9, 1e-13
-#: frequencies of a family differ from its middle by no more than this share; where a factor takes as long as many of
-#: its solutions, which is so from a number of coordinates on, by more, at all pressures together, up to so many roots
-_FAMILY, _WIDER, _LARGE, _TOGETHER = 1e-2, 4e-2, 120_000, 8
+#: frequencies of a family differ from its middle by no more than this share
+_FAMILY = 1e-2
 #: a root farther from that of the reduced model, as a share of it, is another one
 _FARTHEST = 5e-2
 #: MAC of the contact motion above which a root in the subspace of others is the one sought, and below which even that
@@ -57,18 +56,13 @@ def sliding_as(full, model):
     return replace(full, speed=model.speed, contacts=replace(model.contacts, **rows))
 
 
-def families(roots, state, size=0):
-    """Indices of ``roots`` (r,) 1/s of one ``state`` (r,) and nearly one frequency: arrays, from their middle out.
-
-    ``size``: number of coordinates; in large systems states share a factor, of which wider families take fewer.
-    """
-    width, state = (_WIDER, np.zeros_like(state)) if size > _LARGE else (_FAMILY, state)
+def families(roots, state):
+    """Indices of ``roots`` (r,) 1/s of one ``state`` (r,) and nearly one frequency: arrays, from their middle out."""
     order, groups = np.lexsort((roots.imag, state)), []
     while len(order):
         frequency, first = roots.imag[order], order[0]
-        near = (state[order] == state[first]) & (frequency <= frequency[0] * (1 + width) / (1 - width))
-        near &= (np.cumsum(near) <= _TOGETHER) | (size <= _LARGE)
-        group, order = np.sort(order[near]) if size <= _LARGE else order[near], order[~near]
+        near = (state[order] == state[first]) & (frequency <= frequency[0] * (1 + _FAMILY) / (1 - _FAMILY))
+        group, order = np.sort(order[near]), order[~near]
         groups.append(group[np.argsort(abs(np.arange(len(group)) - (len(group) - 1) / 2), kind="stable")])
     return groups
 

@@ -119,13 +119,6 @@ def test_families_are_of_one_state_and_nearly_one_frequency_from_the_middle_out(
     assert [group.tolist() for group in families(roots, state)] == [[1, 3, 0, 5], [6], [2, 4], [7]]
 
 
-def test_families_of_large_systems_are_wider_and_of_all_states():
-    roots = 10 + 1j * np.array([1000.0, 1080.0, 1500.0, 1085.0, *np.linspace(2000, 2010, 9)])
-    state = np.array([0, 1, 0, 0, *[0, 1] * 4, 0])
-    groups = [set(group.tolist()) for group in families(roots, state, 200_000)]
-    assert groups == [{0, 1}, {3}, {2}, set(range(4, 12)), {12}]
-
-
 def test_the_full_model_slides_as_the_reduced_one(full):
     basis = np.linalg.qr(np.random.default_rng(1).standard_normal((SIZE, 20)))[0]
     contacts = replace(full.contacts, normal=full.contacts.normal @ basis, stiffness=np.arange(1.0, CONTACTS + 1))
