@@ -7,6 +7,12 @@ import numpy as np
 import pytest
 
 from pipeline.diagnosis.output.product import product
+from pipeline.inference.fitting import calibration
+from pipeline.inference.fitting.calibration import recalibrate
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.run_parameters import with_own_parameters
+from pipeline.inference.rules import DEFAULTS
+from tests.diagnosis import two_mass_decays
 from tests.diagnosis.decays import decay, duffing, jenkins, linear, problem
 
 STARTS = {"a": (0.1, 0.3), "b": (-0.03, 1.2), "c": (0.05, -0.2), "last": (0.02, -1.6)}
@@ -61,3 +67,26 @@ def test_nothing_is_missing_in_a_linear_decay(quantity, seed):
     assert found.decision.verdict == "parameters", "its stiffness and damping are other ones"
     spread, values = found.completed.spread(found.weights), found.completed.values
     assert abs(values["joints.mount.stiffness"] - 412.0) < 3 * spread["joints.mount.stiffness"]
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_a_recalibration_is_never_worse_than_the_given_values(friction, monkeypatch):
+    """Two coordinates whose stiffness is 5 % off. A fit that ends in a wrong optimum, one stiffness eight standard
+    deviations off and the start states with it, does not stand beside the given values with start states of their own.
+    """
+    starts = {"a": (0.03, 0.0, 0.2, -0.4), "b": (-0.02, 0.03, 0.0, 0.5)}
+    posed = two_mass_decays.problem(*two_mass_decays.decays((945.0, 480.0), (2.4, 0.9), friction, starts, 100.0, 300))
+    problem, budget = posed.problem, posed.budget
+    noises = tuple(budget[run.name] for run in problem.training)
+    given = with_own_parameters(problem, noises, problem.nominal, problem.nominal.nominal, problem.training)
+    right = recalibrate(problem, budget, DEFAULTS.calibration).null
+    far = given.copy()
+    far[0] = 8.0
+    wrong = linearised(problem, noises, problem.nominal, with_own_parameters(
+        problem, noises, problem.nominal, far, problem.training), problem.training)
+    assert wrong.objective > 3 * linearised(problem, noises, problem.nominal, given, problem.training).objective
+    monkeypatch.setattr(calibration, "calibrate", lambda *_: wrong)
+    again = recalibrate(problem, budget, DEFAULTS.calibration).null
+    assert again.objective == pytest.approx(right.objective, rel=1e-3)
+    if not friction:
+        assert abs(again.values["joints.mount.stiffness"] - 945) < 4 * again.spread()["joints.mount.stiffness"]

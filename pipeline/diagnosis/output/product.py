@@ -19,6 +19,8 @@ from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Lat
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
+#: factor by which the error of the fitted runs may grow with the recalibration before it is told
+_GROWN = 1.1
 
 
 def product(problem, diagnosis, contacts=None):
@@ -47,7 +49,7 @@ def product(problem, diagnosis, contacts=None):
     further = attempt("the next experiment", next_experiment, problem, diagnosis, otherwise=NOTHING)
     result = Diagnosis(
         verdict=diagnosis.decision.verdict, other_machine="",
-        reason=[*diagnosis.decision.reasons, *problem.remarks, *short(runs, problem.budget),
+        reason=[*diagnosis.decision.reasons, *_grown(fits[0]), *problem.remarks, *short(runs, problem.budget),
                 *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
         **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
@@ -76,6 +78,14 @@ def _errors(problem, diagnosis, part, attempt):
         return of(part)
     except Exception:
         return of([run for run in part if attempt(f"errors of run {run.name}", of, [run])])
+
+
+def _grown(errors):
+    """A sentence where the Errors of the fitted runs grew with the recalibration, as one of noise floors may."""
+    if errors.runs and errors.recalibrated > _GROWN * errors.before:
+        yield (f"the recalibrated nominal model errs more on the fitted runs than the given values do"
+               f" ({errors.recalibrated:.2g} against {errors.before:.2g} of their standard deviation), since runs of"
+               " large motion count most: it lacks something that these ask for; its values say little")
 
 
 def located(location, unit="", edges=None):

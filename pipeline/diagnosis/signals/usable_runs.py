@@ -25,7 +25,7 @@ def usable(runs, make=lambda record: record):
     for name in made:
         if runs[name].repeat_of and runs[name].repeat_of not in made:       # what it repeats is left out
             made[name] = make(replace(runs[name], repeat_of=""))
-    return made, {name: f"run {name} is left out: {error}" for name, error in refused.items()}
+    return made, {name: f"left out, {error}" for name, error in refused.items()}
 
 
 def without(settings, refused):

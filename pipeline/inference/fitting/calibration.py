@@ -1,5 +1,6 @@
 """Calibration: the best of several least-squares fits, approached by easier problems where the starts are far off."""
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference.fitting.fit_state import FAR, Fit, linearised, refreshed, whitened
 from pipeline.inference.fitting.least_squares import again, continued, iterated
+from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.problem import Problem
 from pipeline.inference.rules import DEFAULTS
 
@@ -62,14 +64,40 @@ class Calibration:
 def recalibrate(problem, budget, rules, start=None):
     """Calibration from the nominal values, or from the Fit ``start`` of the same hypothesis.
 
-    It may not have converged; ConvergenceError where there is no fit at all.
+    It may not have converged, but it is never worse than the given values are, each run begun as suits these best;
+    ConvergenceError where there is no fit at all.
     """
     if start and start.converged:
         return Calibration(problem, budget, start)
     runs, hypothesis = problem.training, problem.nominal
     noises = tuple(budget[run.name] for run in runs)
     latent = start.latent if start else hypothesis.nominal
-    return Calibration(problem, budget, calibrate(problem, noises, hypothesis, [latent], runs, False, rules))
+    fit = calibrate(problem, noises, hypothesis, [latent], runs, False, rules)
+    return Calibration(problem, budget, fit if start else _not_worse_than_given(problem, fit))
+
+
+def _not_worse_than_given(problem, fit):
+    """The Fit, or a lower one from the given values, where runs have parameters of their own, fitted to these first.
+
+    A start state that makes up for a wrong frequency leads the values of the model to a wrong optimum. Where even the
+    given values are far off, they are tried one prior standard deviation off to either side, one at a time.
+    """
+    hypothesis, given = fit.hypothesis, fit.hypothesis.nominal
+    shared = np.flatnonzero(hypothesis.shared)
+    if fit.unordered or hypothesis.shared.all():
+        return fit
+    best = fit
+    for k, side in [(0, 0.0), *((k, side) for k in shared for side in (-1.0, 1.0))]:
+        if side and not best.far:
+            break
+        with suppress(BrakechainError):
+            latent = np.where(np.arange(len(given)) == k, given + side, given)
+            latent = with_own_parameters(problem, fit.noises, hypothesis, latent, fit.runs)
+            residuals, _ = whitened(problem, fit.noises, hypothesis, latent, fit.runs)
+            if residuals is not None and sum(r @ r for r in residuals) + latent @ latent < best.objective:
+                begin = linearised(problem, fit.noises, hypothesis, latent, fit.runs)
+                best = min(best, continued(problem, begin, patient=False), key=lambda f: f.objective)
+    return best
 
 
 def calibrate(problem, noises, hypothesis, starts, runs, settled=True, rules=DEFAULTS.calibration):
