@@ -141,7 +141,7 @@ def _beside(bench, row):
 
 
 def _moved(bench, row, runs, seen, others):
-    """Largest values ``seen`` of a joint with the largest force on what it moves, of inputs their root mean square, which
+    """Largest values ``seen`` of a joint with the largest force on what it moves, of inputs the root mean square, which
     blows do not rule: the less a nominal model has at a place, the less would be looked for there."""
     model = bench.model
     sizes = [share * seen.pop(f"{_SENSOR} {name}") for name, share in others.items()]
