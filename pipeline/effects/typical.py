@@ -141,14 +141,13 @@ def _beside(bench, row):
 
 
 def _moved(bench, row, runs, seen, others):
-    """Largest values ``seen`` of a joint with the largest force on what it moves, of inputs sqrt(2) times their root
-    mean square, which blows do not rule: the less a nominal model has at a place, the less would be looked for there.
-    """
+    """Largest values ``seen`` of a joint with the largest force on what it moves, of inputs the root mean square, which
+    blows do not rule: the less a nominal model has at a place, the less would be looked for there."""
     model = bench.model
     sizes = [share * seen.pop(f"{_SENSOR} {name}") for name, share in others.items()]
     if not others:
         return seen
-    pushed = [share * float(np.sqrt(2 * np.mean(np.square(_input(bench, run, name))))) for run in runs
+    pushed = [share * float(np.sqrt(np.mean(np.square(_input(bench, run, name))))) for run in runs
               for share, name in zip(_shares(bench, row, model.input_rows), model.input_name, strict=True)
               if name not in model.moved_ends]
     return seen | {"force": float(max([seen["force"], *sizes, *pushed])), "pushed": float(max(pushed, default=0.0))}
