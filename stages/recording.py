@@ -13,10 +13,11 @@ from pipeline.contract.units import in_si, measured_in
 from pipeline.physics.signals.spectra import HEARING
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
-from pipeline.recordings.columns import read_table
+from pipeline.recordings.columns import read_table, table
 from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
 from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, steady_tone, stretch
+from pipeline.recordings.survey.meanings import split_unit
 from pipeline.recordings.waveform import SPELT, free_name, plain_name
 from pipeline.validation.published_facts import load
 
@@ -60,7 +61,7 @@ class _Columns(Section):
     columns: dict[str, Column] = option(..., "channels by name", min_length=1)
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate; none = from the column of times")
     time: str | None = option(None, "column with the times; with a sampling rate it tells lost samples")
-    time_unit: str = option("s", "unit of the times")
+    time_unit: str | None = option(None, "unit of the times; none = as the column or a row of units says, else s")
     resample: Quantity("Hz", gt=0) | None = option(
         None, "rate of an even grid on which samples of uneven times are interpolated; none = times are even")
     runs: dict[str, Stretch] = option(..., "runs by name: declared stretches of the record", min_length=1)
@@ -227,14 +228,14 @@ class _Refused:
         return made
 
 
-def _from_columns(file, columns, refused):
-    """Runs of a file of columns."""
+def _from_columns(file, columns, units, refused):
+    """Runs of a file of columns, {name: values} and what it says of their {name: unit}."""
     where, found = f"{file.file}", {}
     _refuse_unknown(file, columns, f"{where}: ")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
-        values, rate, begin = _sampled(file, values, part, f"{where}: time")
+        values, rate, begin = _sampled(file, values, part, units, f"{where}: time")
         whole = refused.channels({
             name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
                           place=w.place, direction=w.direction) for name, w in file.columns.items()})
@@ -318,7 +319,7 @@ def _refuse_unknown(file, columns, where):
             raise ConfigError(f"{where}{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
 
 
-def _sampled(file, values, columns, where):
+def _sampled(file, values, columns, units, where):
     """(columns on an even grid, rate, begin) from the sampling rate, the column of times, or both."""
     if file.time is not None and file.time not in columns:
         raise ConfigError(where, f"one of {', '.join(columns)}", repr(file.time))
@@ -326,7 +327,8 @@ def _sampled(file, values, columns, where):
         raise ConfigError(where, "a sampling rate or a column of times", "neither", "add sample_rate or time")
     if file.time is None:
         return values, file.sample_rate, 0.0
-    time = np.asarray(in_si(columns[file.time], file.time_unit, f"{where}_unit")[0])
+    unit = file.time_unit or units.get(file.time) or split_unit(file.time)[1] or "s"
+    time = np.asarray(in_si(columns[file.time], unit, f"{where}_unit")[0])
     if file.resample is not None:
         return *interpolated(values, time, file.resample, where), float(time[0])
     if file.sample_rate is None:
@@ -361,8 +363,8 @@ def _from_facts(file):
 
 #: kind of file -> its runs by name
 READ = {"matlab": lambda file, refused: _from_columns(file, {
-            name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, refused),
-        "table": lambda file, refused: _from_columns(file, read_table(file.file, file.delimiter, file.skip), refused),
+            name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, {}, refused),
+        "table": lambda file, refused: _from_columns(file, *table(file.file, file.delimiter, file.skip), refused),
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
         "uff": lambda file, _: _from_uff(file), "friction": lambda file, _: _from_friction(file),
         "lines": lambda file, _: _from_facts(file), "hdf5": lambda file, _: runs("hdf5", file.file)}

@@ -13,6 +13,11 @@ from pipeline.contract.received.hdf5 import flaw, flaw_of, refuse_outside
 
 #: text in a table that stands for a missing sample
 _NUMBER = re.compile(r"\s*[-+]?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|inf|Inf|INF)\s*")
+#: a unit in its own row; a number with a decimal comma; what ends the head of a LabVIEW measurement, and where it is
+#: sought
+_UNIT = re.compile(r"[\[(]([^\])]*)[\])]")
+_COMMA = re.compile(r"\s*[-+]?\d+,\d+([eE][-+]?\d+)?\s*")
+_LABVIEW, _HEAD = "***End_of_Header***", 100
 MISSING = frozenset({"", "nan", "na", "n/a", "none", "null", "-"})
 
 
@@ -124,23 +129,32 @@ def _refuse(told, node):
 
 
 def read_table(path, delimiter=None, skip=0):
-    """Column name -> 1-D array of a text table, NaN where a sample is missing.
+    """Column name -> 1-D array of a text table, NaN where a sample is missing; see ``table``."""
+    return table(path, delimiter, skip)[0]
 
-    ``delimiter`` None: the first of tab, semicolon and comma that the header contains; ``skip``: lines before the
-    header. Raises ConfigError with the line of a value that is not a number.
+
+def table(path, delimiter=None, skip=0):
+    """({column: 1-D array, NaN where a sample is missing}, {column: unit of a row in brackets}) of a text table.
+
+    ``delimiter`` None: the first of tab, semicolon and comma that the header contains, else white space; ``skip``:
+    lines before the header, those of a LabVIEW measurement left out by themselves. Decimals may follow a comma where no
+    comma separates columns; text is UTF-8, UTF-16 or Windows-1252. Raises ConfigError with the line of a value that is
+    not a number.
     """
     path = Path(path)
-    try:
-        content = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(path, "a readable text table", str(error)) from None
-    lines = content.splitlines()[skip:]
+    content = _text(path)
+    lines = content.splitlines()
+    skip = max([skip, *(k + 1 for k, line in enumerate(lines[:_HEAD]) if line.startswith(_LABVIEW))])
+    lines = lines[skip:]
     if len(lines) > 2 and not content.endswith(("\n", "\r")) and _shorter(lines):
         raise ConfigError(f"{path}:{skip + len(lines)}", "a last number as long as those above it, or a line break"
                           " behind it", repr(lines[-1][-20:]), "the file is cut off: copy it again")
     if len(lines) < 2:
         raise ConfigError(path, "a header and at least one line of numbers", f"{len(lines)} lines")
+    lines[0] = re.sub(r"^[#%]\s*", "", lines[0])
     mark = delimiter or next((d for d in "\t;," if d in lines[0]), ",")
+    if delimiter is None and mark not in lines[0] and len(lines[0].split()) == len(lines[1].split()) > 1:
+        mark, lines = " ", [" ".join(line.split()) for line in lines]
     try:
         head, *rows = csv.reader(lines, delimiter=mark)
     except (csv.Error, TypeError) as error:
@@ -148,12 +162,36 @@ def read_table(path, delimiter=None, skip=0):
     names = [name.strip() for name in head]
     if len(set(names)) < len(names):
         raise ConfigError(f"{path}:{skip + 1}", "each column name once", ", ".join(names))
-    values = np.full((len(rows), len(names)), np.nan)
-    for number, row in enumerate(rows):
+    units = [_UNIT.fullmatch(text.strip()) for text in rows[0]]
+    first = 1 if units and all(units) else 0
+    while first < len(rows) - 1 and not any(text.strip() for text in rows[first]):
+        first += 1
+    names = names[:-1] if names[-1] == "Comment" and len(rows[first]) == len(names) - 1 else names
+    comma = mark != "," and any(_COMMA.fullmatch(text) for text in rows[first]) and "." not in "".join(rows[first])
+    values = np.full((len(rows) - first, len(names)), np.nan)
+    for number, row in enumerate(rows[first:]):
+        line = skip + first + number + 2
         if len(row) != len(names):
-            raise ConfigError(f"{path}:{skip + number + 2}", f"{len(names)} values", f"{len(row)}")
-        values[number] = [_number(text, path, skip + number + 2) for text in row]
-    return dict(zip(names, values.T, strict=True))
+            raise ConfigError(f"{path}:{line}", f"{len(names)} values", f"{len(row)}")
+        values[number] = [_number(text.replace(",", ".") if comma else text, path, line) for text in row]
+    return dict(zip(names, values.T, strict=True)), {
+        name: unit[1] for name, unit in zip(names, units, strict=False) if first and unit}
+
+
+def _text(path):
+    """The text of a file: UTF-16 by its mark, UTF-8, else Windows-1252 where it holds no control characters."""
+    try:
+        content = path.read_bytes()
+        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            return content.decode("utf-16")
+        try:
+            return content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            if re.search(rb"[\x00-\x08\x0e-\x1f]", content):
+                raise
+            return content.decode("cp1252")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError(path, "a readable text table", str(error)) from None
 
 
 def _shorter(lines):

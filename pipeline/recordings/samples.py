@@ -15,6 +15,8 @@ EVEN = 0.01
 _BLOCKS = 40
 #: largest distance of an instant from a declared grid, in intervals
 OFF_GRID = 0.25
+#: distance in intervals within which an instant is one of the grid
+_AT = 1e-6
 #: intervals of a grid without a sample beyond which nothing is interpolated
 GAP = 3
 
@@ -142,7 +144,8 @@ def interpolated(columns, time, rate, where):
                           "where times begin anew in one file, state the rows of each run: rows: [0, 100]")
     grid = time[0] + np.arange(int(np.floor((time[-1] - time[0]) * rate + OFF_GRID)) + 1) / rate
     after = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
-    lost = time[after] - time[after - 1] > GAP / rate
+    lost = (time[after] - time[after - 1] > GAP / rate) & (np.minimum(time[after] - grid, grid - time[after - 1])
+                                                           > _AT / rate)
     return {name: np.where(lost, np.nan, np.interp(grid, time, values)) for name, values in columns.items()}, rate
 
 

@@ -6,7 +6,7 @@ import pytest
 from scipy.io import savemat
 
 from pipeline.contract import ConfigError
-from pipeline.recordings.columns import read_columns, read_matlab, read_table, write_table
+from pipeline.recordings.columns import read_columns, read_matlab, read_table, table, write_table
 from pipeline.recordings.samples import channel
 
 
@@ -157,3 +157,30 @@ def test_a_table_cut_off_within_its_last_number(tmp_path, rows, cut, refused):
             read_table(tmp_path / "a.csv")
     else:
         assert read_table(tmp_path / "a.csv")["x"][-1] == 3.12
+
+
+@pytest.mark.parametrize("content, units", [
+    ("Time,a\n(ms),(V)\n\n0.1,1.5\n0.2,2.5\n", {"Time": "ms", "a": "V"}), ("Time;a\r\n0,1;1,5\r\n0,2;2,5\r\n", {}),
+    ("# Time a\n0.1 1.5\n0.2   2.5\n", {}),
+    ("LabVIEW Measurement\t\n***End_of_Header***\t\n\t\nChannels\t2\n***End_of_Header***\t\t\nTime\ta\tComment\n"
+     "0.1\t1.5\n0.2\t2.5\n", {})])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_tables_of_other_programs(tmp_path, content, units, encoding):
+    (tmp_path / "a.txt").write_bytes(content.encode(encoding))
+    columns, found = table(tmp_path / "a.txt")
+    assert {name: values.tolist() for name, values in columns.items()} == {"Time": [0.1, 0.2], "a": [1.5, 2.5]}
+    assert found == units
+
+
+def test_a_table_of_windows_is_read_and_one_of_bytes_is_none(tmp_path):
+    (tmp_path / "a.csv").write_bytes("Zeit [s];Weg [µm]\n0,1;5\n".encode("cp1252"))
+    assert list(read_table(tmp_path / "a.csv")) == ["Zeit [s]", "Weg [µm]"]
+    (tmp_path / "b.csv").write_bytes(b"t,x\n\x01\xff\x00,2\n")
+    with pytest.raises(ConfigError, match="a readable text table"):
+        read_table(tmp_path / "b.csv")
+
+
+def test_a_comma_is_no_decimal_where_it_separates_or_points_stand_beside_it(tmp_path):
+    (tmp_path / "a.csv").write_text("t;x\n1.5;2,5\n")
+    with pytest.raises(ConfigError, match="2: expected a number, found '2,5'"):
+        read_table(tmp_path / "a.csv")

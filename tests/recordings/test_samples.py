@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.recordings.samples import channel, even_rate, on_grid, stretch, stretches
+from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, stretch, stretches
 
 
 def test_channels_are_in_si_and_know_what_is_missing():
@@ -53,3 +53,9 @@ def test_neighbouring_stretches_share_no_sample():
     assert last.missing.tolist() == [[0, 1]] and float(last.begin) == pytest.approx(2.2) and str(last.place) == "pad"
     with pytest.raises(ConfigError, match="expected a stretch within 2 s to 2.4 s, found 5 s"):
         stretch(whole, 5.0, 6.0, "a")
+
+
+def test_straight_lines_join_uneven_samples():
+    time = np.array([0.0, 0.012, 0.019, 0.031, 0.04])
+    spread, rate = interpolated({"x": 3 * time}, time, 100.0, "a")
+    assert rate == 100 and spread["x"] == pytest.approx([0, 0.03, 0.06, 0.09, 0.12])

@@ -209,3 +209,36 @@ def test_a_calibrator_rules_alone_and_must_hold_a_tone(tmp_path, more, told):
     with pytest.raises(ConfigError, match=told):
         read(tmp_path, {"kind": "audio", "file": "a.wav", "columns": {
             "m": {"column": "1", "calibrator": {"file": "cal.wav"}, **more}}})
+
+
+def test_uneven_times_in_ms_are_put_on_a_grid_and_gaps_stay_gaps(tmp_path):
+    time = np.array([0, 9, 21, 30, 41, 50, 120, 130])
+    (tmp_path / "b.csv").write_text("t,pos,u\n" + "".join(f"{t},{2 * t},1\n" for t in time))
+    table = {**TABLE, "sample_rate": None, "time_unit": "ms", "resample": "100 Hz"}
+    found = read(tmp_path, table).runs["t"].channels["x"]
+    assert float(found.rate) == 100 and len(found.samples) == 14 and found.missing.tolist() == [[6, 12]]
+    assert found.samples[:6] == pytest.approx(2e-3 * np.arange(0, 60, 10)) and found.samples[13] == pytest.approx(0.26)
+
+
+def test_times_that_begin_anew_make_runs_of_rows(tmp_path):
+    (tmp_path / "b.csv").write_text("t,pos,u\n" + "".join(f"{k % 4 / 10},{k},1\n" for k in range(8)))
+    runs = {"one": {"rows": [0, 4]}, "two": {"rows": [4, 8], "begin": "0.1 s"}}
+    found = read(tmp_path, {**TABLE, "sample_rate": None, "runs": runs}).runs
+    assert [found[name].channels["x"].samples.tolist() for name in found] == [
+        pytest.approx([0, 1e-3, 2e-3, 3e-3]), pytest.approx([5e-3, 6e-3, 7e-3])]
+    with pytest.raises(ConfigError, match=r"state the rows of each run"):
+        read(tmp_path, {**TABLE, "sample_rate": None, "resample": "10 Hz"})
+
+
+def test_a_file_of_sound_has_no_rows(tmp_path):
+    sound(tmp_path / "a.wav")
+    with pytest.raises(ConfigError, match="runs.a.rows: expected begin and end"):
+        read(tmp_path, {"kind": "audio", "file": "a.wav", "runs": {"a": {"rows": [0, 9]}},
+                        "columns": {"mic": {"column": "1", "unit": "Pa", "factor": 1}}})
+
+
+@pytest.mark.parametrize("head", ["t,pos,u\n(ms),(mm),(N)\n", "t [ms],pos,u\n"])
+def test_times_are_in_the_unit_that_the_file_says(tmp_path, head):
+    (tmp_path / "b.csv").write_text(head + "".join(f"{k},{k},1\n" for k in range(5)))
+    table = {**TABLE, "sample_rate": None, "time": head.split(",")[0]}
+    assert float(read(tmp_path, table).runs["t"].channels["x"].rate) == pytest.approx(1000)

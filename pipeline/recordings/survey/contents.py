@@ -9,7 +9,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
 from pipeline.recordings.apart import runs, waveforms
-from pipeline.recordings.columns import read_table
+from pipeline.recordings.columns import table
 from pipeline.recordings.samples import EVEN, GAP, OFF_GRID, with_gaps
 from pipeline.recordings.survey.meanings import meaning, split_unit
 from pipeline.recordings.waveform import free_name, plain_name
@@ -107,12 +107,13 @@ def _of_waveforms(path, kind):
 
 
 def _of_columns(path, kind):
-    columns = read_table(path) if kind == "table" else {n: w.values for n, w in waveforms("matlab", path).items()}
+    columns, units = table(path) if kind == "table" else ({n: w.values for n, w in waveforms("matlab", path).items()},
+                                                          {})
     longest = max(map(len, columns.values()))
     columns = {name: np.asarray(values, float) for name, values in columns.items() if len(values) == longest}
     time = next((name for name, values in columns.items() if _is_time(name, values)), None)
     label = next((name for name, values in columns.items() if name != time and _is_label(name, values)), None)
-    settings, spans, rate, remarks = _timing(time, columns.get(time), longest)
+    settings, spans, rate, remarks = _timing(time, columns.get(time), longest, units.get(time))
     stem, signals = _run_name(path), {}
     names = [stem] if len(spans) == 1 else [f"{stem}_{k + 1}" for k in range(len(spans))]
     turning = any(meaning(n).measures == "torque" for n in columns)
@@ -120,8 +121,8 @@ def _of_columns(path, kind):
         if name in (time, label):
             continue
         key = free_name(plain_name(split_unit(name)[0]), signals)
-        signals[key] = Signal(key, name, meaning(name, turning=turning), rate,
-                              {run: values[a:b] for run, (a, b) in zip(names, spans, strict=True)})
+        signals[key] = Signal(key, name, meaning(name, units.get(name, ""), turning=turning),
+                              rate, {run: values[a:b] for run, (a, b) in zip(names, spans, strict=True)})
     stated = {run: {} if (a, b) == (0, longest) else {"rows": [a, b]} for run, (a, b) in zip(names, spans, strict=True)}
     begin = 0.0 if "time" not in settings else float(columns[time][0])
     return Contents(path, kind, settings, signals, stated, len(spans) == 1, remarks, begin)
@@ -141,12 +142,12 @@ def _is_label(name, values):
                 and re.search(r"#|drop|run|test|trial|segment|no\b|number|id\b", name, re.IGNORECASE))
 
 
-def _timing(name, time, count):
+def _timing(name, time, count, unit):
     """(settings, [(first, after last)] of the pieces, rate in Hz, remarks) of a column of times, or of none."""
     if name is None:
         return ({"sample_rate": "1 Hz"}, [(0, count)], 1.0,
                 ["no column of times: one sample a second is assumed; state the sampling rate of the record"])
-    unit = split_unit(name)[1] or "s"
+    unit = unit or split_unit(name)[1] or "s"
     time = np.asarray(in_si(time, unit, "unit")[0], float)
     step = np.diff(time)
     usual, settings = float(np.median(step[step > 0])), {"time": name} | ({"time_unit": unit} if unit != "s" else {})

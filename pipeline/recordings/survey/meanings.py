@@ -11,13 +11,14 @@ _WITH_UNIT = (re.compile(r"(.*\S)\s*[\[(]\s*([^\])]*?)\s*[\])]"), re.compile(r"(
               re.compile(r"(.*[A-Za-z0-9])_(mm|um|nm|m|N|kN|mN|uN|Nm|mNm|rad|deg|rpm|V|mV|A|mA|s|ms|MPa|kPa)"))
 #: what is measured -> (names, units by rotation: no, yes)
 _NAMES = {
-    "time": (r"t|time|zeit|timestamps?|seconds", ("s", "s")),
+    "time": (r"t|time|zeit|timestamps?|seconds|xvalue", ("s", "s")),
     "torque": (r"tau|torque|moment|drehmoment|trq|mz", ("N m", "N m")),
     "force": (r"f|force|kraft|load|friction|normal|thrust|tension|f[xyz]", ("N", "N m")),
     "current": (r"i|cur|current|strom|amps?|iq", ("A", "A")),
     "voltage": (r"v\d*in|u\d*in|volt|voltage|spannung|vir|v\d", ("V", "V")),
     "stress": (r"sigma|stress|spannungen", ("MPa", "MPa")),
     "strain": (r"e|eps|epsilon|strain|dehnung", ("1", "1")),
+    "pressure": (r"p|pressure|druck", ("Pa", "Pa")),
     "counts": (r"counts?|enc|encoder|ticks|pulses?", ("1", "1")),
     "acceleration": (r"a|acc|accel|acceleration|beschleunigung|a[xyz]|ddq|ddx", ("m/s^2", "rad/s^2")),
     "velocity": (r"v|vel|velocity|speed|geschwindigkeit|omega|rate|dq|dx|qd", ("m/s", "rad/s")),
@@ -105,10 +106,10 @@ def _by_unit(unit):
 
 
 def _by_name(name):
-    """By whole words first, the longest list of letters last: 'pos_meas1' is pos, meas."""
+    """By the whole name, then by its words: 'pos_meas1' is pos, meas; a letter alone counts as the first word."""
     words = [word for word in re.split(r"[^A-Za-z]+", re.sub(r"([a-z])([A-Z])", r"\1 \2", name).lower()) if word]
     whole = re.sub(r"\W|_", "", name).lower()
-    for text in (whole, *words):
+    for text in (whole, *words[:1], *(word for word in words[1:] if len(word) > 1)):
         for measures, (names, _) in _NAMES.items():
             if re.fullmatch(names, text):
                 return measures
