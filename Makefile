@@ -26,7 +26,7 @@ FAST  := -m pytest -q -rs -m "not slow" -n auto --dist loadfile
 IGNORED = $(if $(filter tests,$(TESTS)),--ignore=tests/blind_trial/generators --ignore=tests/studies)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz fuzz_diagnosis trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -104,6 +104,9 @@ bench: $(TESTED)  ## benchmarks: wall and CPU seconds of kernels, other codes, s
 
 fuzz: $(TESTED)  ## damaged files to every reader, cases, quantities and products, for SECONDS (600); failures are kept as tests
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS) --seed $(SEED) $(ARGS)
+
+fuzz_diagnosis: $(TESTED)  ## CASES (100) random benches through 'brakechain run': each ends with an answer or a sentence
+	$(BIN)/python -m tests.fuzz.diagnoses --cases $(or $(CASES),100) --seed $(SEED) $(ARGS)
 
 trial: $(READY)  ## open practice trial: make, solve and score, up to half an hour on two cores; resumes
 	@test -e $(PRACTICE)/set.yaml || $(BIN)/brakechain trial make $(PRACTICE) --cases 48 --seed 1 --systems forced_rig,coarse_rig

@@ -99,12 +99,12 @@ def rough_pair_problem(recording, surface, micro, friction_map, effects, setting
     in_case = {term.effect.name for term in stated}
     weighed = [e for e in chosen(settings) if e.locations(bare) and e.name not in in_case]
     hypotheses = candidates(bare, tuple(drags[o.name] for o in problem.training), weighed, settings.places,
-                            priors=settings.priors)
+                            priors=settings.priors, refused=(refused := []))
     channels = [c for run in observations for c in run.channels]
     noises, solver = budget(problem), procedure(settings, few=True)
     return DiagnosisProblem(problem, noises, (*hypotheses, *_map_candidate(forward)),
                             {c: UNITS[c] for c in dict.fromkeys(channels)}, solver,
-                            Axes.under(problem, noises, solver, _CHAIN))
+                            Axes.under(problem, noises, solver, _CHAIN), remarks=tuple(refused))
 
 
 def _given(section):

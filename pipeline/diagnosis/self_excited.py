@@ -70,11 +70,12 @@ def pole_problem(bench, recorded, settings, band):
                           inputs={}, drive=None) for o in problem.training)
     noises, by_name = budget(problem), {o.name: o for o in observations}
     blank = {p.name: replace(by_name[p.like], name=p.name, conditions=p.shown.run.conditions) for p in planned}
+    effects = candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors,
+                         refused=(refused := []))
     return DiagnosisProblem(
-        problem, noises | {p.name: noises[p.like] for p in planned},
-        candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, solver,
+        problem, noises | {p.name: noises[p.like] for p in planned}, effects, units, solver,
         squeals=squeals, revision=OtherMachine(solver.rules.poles),
-        next_runs=_predictable(problem, blank.values(), must=bool(settings.next)))
+        next_runs=_predictable(problem, blank.values(), must=bool(settings.next)), remarks=tuple(refused))
 
 
 def _predictable(problem, runs, must):

@@ -74,6 +74,11 @@ def features(bench, recorded, settings, rules=DEFAULTS.poles):
         if not again:
             raise ConfigError(f"run {name}", "a repeat: poles count where two records show them", "none",
                               "record it twice and set repeat_of")
+        shown = [{c.name for c in motions(bench)} & set(each.channels) for each in (record, again[0])]
+        if lacking := shown[0] ^ shown[1]:
+            raise ConfigError(f"run {again[0].run.name}", f"the motion channels of run {name}, which it repeats",
+                              f"{', '.join(sorted(lacking))} in one of them alone",
+                              "leave them out of bench.channels, or name another repeat")
         (first, apart), (second, other) = (_poles(bench, each, settings, rules) for each in (record, again[0]))
         seen, there = fundamental(confirmed(first, second)), channels_of(bench, record)
         result[name] = _told(bench, Features(record.run, seen, {}, {}, max(apart, other), there), settings, rules)

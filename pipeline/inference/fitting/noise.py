@@ -159,7 +159,8 @@ def budget(problem, solver_error=None, above=None, order=ORDER):
 
 
 def normalised_error(run, residual):
-    """NRMSE of (c, n): root mean over channels with samples of mean square residual over the channel's variance."""
+    """NRMSE of (c, n): root mean over channels with samples of mean square residual over the channel's variance; 0
+    where no channel has any."""
     return _normalised(run, _masked_mean(residual**2, run.valid))
 
 
@@ -169,8 +170,9 @@ def floor(run, noise):
 
 
 def _normalised(run, power):
-    seen = run.valid.any(axis=1)
-    return float(np.sqrt(np.mean(power[seen] / _variance(run)[seen])))
+    variance = _variance(run)
+    seen = run.valid.any(axis=1) & (variance > np.finfo(float).tiny)       # a channel of zeros has no size
+    return float(np.sqrt(np.mean(power[seen] / variance[seen]))) if seen.any() else 0.0
 
 
 def _variance(run):
