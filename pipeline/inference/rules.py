@@ -91,8 +91,9 @@ class DecisionRules:
                                    " along the runs")
     varies_by: float = threshold(0.1, "relative change of a value along the runs that does not matter; beyond, it is"
                                       " told beside the name")
-    varies_too_much: float = threshold(0.5, "relative change of a value along the runs at which its law is of another"
-                                            " form: no real law is exact")
+    varies_too_much: float = threshold(0.3, "relative change of a value along the runs at which its law is of another"
+                                            " form, as one by a whole power of the motion is where that grows by two;"
+                                            " below, no real law is exact")
     from_null: float = threshold(2.0, "distance of the coefficient from its null in standard deviations")
     unexplained: float = threshold(0.05, "fraction of the excess error that the named effect may leave")
     held_out_left: float = threshold(0.1, "the same on held-out runs, whose conditions may be new")

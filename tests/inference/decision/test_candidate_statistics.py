@@ -104,7 +104,7 @@ def test_all_nominal_values_moved_by_one_factor_are_doubted():
     assert not _one_factor(moved(found[1], -2.3, 0.4), null, DEFAULTS.decision)
 
 
-@pytest.mark.parametrize("change, named", [(0.29, True), (0.9, False)])
+@pytest.mark.parametrize("change, named", [(0.29, True), (0.35, False)])
 def test_a_value_that_follows_time_a_little_is_told_and_one_that_follows_it_much_is_of_another_law(change, named,
                                                                                               monkeypatch):
     monkeypatch.setattr(candidate_statistics_of, "followed", lambda *_: [Following("time", change, 12.0)])
