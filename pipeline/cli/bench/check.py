@@ -46,7 +46,7 @@ def sentences(given):
     yield (f"{len(runs)} runs, {samples} samples; held out: {', '.join(asked.held_out) or 'none'};"
            f" {len(bench.model.mass)} coordinate{'s' * (len(bench.model.mass) != 1)}; {_form(rig)}")
     names = list(dict.fromkeys([*rig.channels, *(fed.channel for fed in rig.inputs.values())]))
-    yield from (f"doubt: {sentence}" for sentence in doubts(recording, names, asked.held_out))
+    yield from (f"doubt: {sentence}" for sentence in doubts(recording, names, asked.held_out, not rig.inputs))
     if rig.poles is not None:
         yield "poles are compared: what they can tell is not computed beforehand"
         return

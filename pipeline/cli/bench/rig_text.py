@@ -129,11 +129,12 @@ def _lumped(rig, bodies):
     for k, body in enumerate(bodies):
         kind, unit = ("inertia", "kg m^2") if turns[k] else ("mass", "kg")
         value = 1.0 if assumed and not turns[k] else own_mass[k]
-        if still:
-            lines.append(f"    {body}: {{moves: [x]}}         # without a time nothing is accelerated: no mass")
+        move, what = ("rotation", "moment of inertia about the axis") if turns[k] else ("x", "moving mass")
+        if _massless(rig, k):
+            why = "without a time nothing is accelerated" if still else f"<- {what}: these runs tell none"
+            lines.append(f"    {body}: {{moves: [{move}]}}   # {why}")
             continue
         origin = 'origin: assumed, source: "a scale: without a force only ratios count"' if assumed else _INFERRED
-        move, what = ("rotation", "moment of inertia about the axis") if turns[k] else ("x", "moving mass")
         lines.append(f"    {body}: {{{kind}: {{value: {value:.4g} {unit}, {origin}}}, moves: [{move}]}}   # <- {what}")
     couplings = [(i, j) for i in range(len(bodies)) for j in range(i) if v.mass[i, j] and not assumed]
     if couplings:
@@ -148,6 +149,8 @@ def _lumped(rig, bodies):
     for k, name in enumerate(names):
         lines.append(_spring(_joint(bodies, turns, k), f"between: [{name}, ground]", _held(v, k), _damping(rig, k),
                              turns[k], still))
+    if rig.roles.base is not None:     # laws are looked for at joints whose far end stands still
+        lines.append(_spring("surroundings", f"between: [{names[0]}, ground]", 0.0, _damping(rig, 0), turns[0], still))
     lines += [_spring(name, f"between: [{names[j]}, {names[i]}]" if v.stiffness[i, j] < 0 else
                       f"along: {{{names[j]}: 1, {names[i]}: 1}}", abs(v.stiffness[i, j]), None, turns[i], still)
               for name, i, j in _links(v)]
@@ -167,6 +170,11 @@ def _lumped(rig, bodies):
 def _joint(bodies, turns, k):
     stem = "bearing" if turns[k] else "support"
     return stem if len(bodies) == 1 else f"{stem}_{k + 1}"
+
+
+def _massless(rig, k):
+    """Whether a coordinate of a balance has no mass: loops without a time, or records that tell none."""
+    return rig.roles.balance and not rig.values.mass[k, k] > 0
 
 
 def _held(values, k):
@@ -270,7 +278,7 @@ def _diagnosis(rig, bodies):
     free = not roles.drives
     for k, body in enumerate(bodies):
         joint = _joint(bodies, turns, k)
-        if not free and not still:
+        if not free and not _massless(rig, k):
             lines.append(f"    masses.{body}: {{spread: 0.3}}" if len(bodies) == 1 else
                          f"    bodies.{body}.mass: {{spread: 0.3}}")
         if _held(v, k) > 0:
@@ -278,6 +286,7 @@ def _diagnosis(rig, bodies):
         if not still and not _falls(rig):
             lines.append(f"    joints.{joint}.damping: {{spread: 0.7}}")
     lines += [f"    joints.{name}.stiffness: {{spread: 0.2}}" for name, _, _ in _links(v)]
+    lines += ["    joints.surroundings.damping: {spread: 1.0}"] if roles.base is not None else []
     if _falls(rig):
         lines += [f"    inputs.weight_{k + 1}.gain: {{spread: 0.01}}" for k, f in enumerate(v.constant) if f]
     for signal, k in roles.drives:
