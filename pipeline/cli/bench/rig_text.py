@@ -215,6 +215,15 @@ def _falls(rig):
     return not rig.roles.drives and rig.roles.base is None and not rig.values.stiffness.any()
 
 
+def _weights(rig):
+    """{index of a coordinate: constant force on it} where nothing else acts; that of a fall is its weight."""
+    if rig.roles.drives or rig.roles.base is not None:
+        return {}
+    forces = {k: -float(force) for k, force in enumerate(rig.values.constant) if force}
+    return {k: float(np.sign(force)) * _GRAVITY if _falls(rig) and not _turns(rig)[k] and
+            abs(abs(force) / _GRAVITY - 1) < _LIKE_GRAVITY else force for k, force in forces.items()}
+
+
 def _inputs(rig, bodies, names, turns):
     """Lines of the inputs: what acts, a base that moves, a constant force."""
     roles, lines = rig.roles, []
@@ -226,14 +235,8 @@ def _inputs(rig, bodies, names, turns):
     if roles.base is not None:
         lines.append(f"    {roles.base.name}: {{displaces: {_joint(bodies, turns, 0)}, "
                      + ("angle: 1 rad}" if turns[0] else "displacement: 1 m}"))
-    if not roles.drives:
-        for k, force in enumerate(rig.values.constant):
-            if _falls(rig) and abs(abs(force) / _GRAVITY - 1) < _LIKE_GRAVITY and not turns[k]:
-                force = np.sign(force) * _GRAVITY
-            if force and roles.base is None:
-                unit = f"torque: {-force:.4g} N m" if turns[k] else f"force: {-force:.4g} N"
-                lines.append(f"    weight_{k + 1}: {{along: {{{names[k]}: 1}}, {unit}}}   # <- a constant force: weight"
-                             " = mass x 9.81 m/s^2, - where the channel counts upwards")
+    lines += [f"    weight_{k + 1}: {{along: {{{names[k]}: 1}}, {'torque: 1 N m' if turns[k] else 'force: 1 N'}}}"
+              "   # constant: see bench.corrections" for k in _weights(rig)]
     return ["  inputs:", *lines] if lines else []
 
 
@@ -250,6 +253,11 @@ def _bench(rig, bodies):
         lines.append(f"  step: {1e3 * step:.3g} ms                          # of the time integration: 40 a period")
         if rig.start:
             lines.append("  start: fitted                          # runs begin in motion; rest: at rest")
+    offsets = [f"inputs.weight_{k + 1}.offset: {force:.4g} {'N m' if turns[k] else 'N'}"
+               for k, force in _weights(rig).items()]
+    if offsets:
+        lines.append(f"  corrections: {{{', '.join(offsets)}}}"
+                     "   # <- weight = mass x 9.81 m/s^2, - where the channel counts upwards")
     lines.append("  channels:")
     for k, s in enumerate(roles.responses):
         quantity = ("displacement", "velocity", "acceleration")[roles.order]
@@ -287,8 +295,9 @@ def _diagnosis(rig, bodies):
             lines.append(f"    joints.{joint}.damping: {{spread: 0.7}}")
     lines += [f"    joints.{name}.stiffness: {{spread: 0.2}}" for name, _, _ in _links(v)]
     lines += ["    joints.surroundings.damping: {spread: 1.0}"] if roles.base is not None else []
-    if _falls(rig):
-        lines += [f"    inputs.weight_{k + 1}.gain: {{spread: 0.01}}" for k, f in enumerate(v.constant) if f]
+    for k, force in _weights(rig).items():
+        std = f"{0.01 * abs(force):.2g} {'N m' if turns[k] else 'N'}"
+        lines.append(f"    inputs.weight_{k + 1}.offset: {{prior: normal, std: {std}}}")
     for signal, k in roles.drives:
         unit = "N m" if turns[k] else "N"
         lines.append(f"    inputs.{signal.name}.offset: {{prior: normal, std: {0.05 * v.size[k]:.2g} {unit}}}"

@@ -63,3 +63,13 @@ def test_beside_a_base_that_moves_laws_have_a_joint_to_the_ground(tmp_path):
     sections = case.load(written(tmp_path, tmp_path / "rig.csv"), stages.CHAINS, stages.load).sections
     assert sections["lumped"].inputs["base"].displaces == "support" and "surroundings" in sections["lumped"].springs
     assert sections["bench"].inputs["base"].channel == "base"
+
+
+def test_what_falls_has_its_weight_in_every_run(tmp_path):
+    time = np.arange(60) / 15
+    np.savetxt(tmp_path / "ball.csv", np.column_stack((time, 80 - 9.81 / 2 * time**2)), delimiter=",",
+               header="Time (s),Height (m)", comments="", fmt="%.9g")
+    sections = case.load(written(tmp_path, tmp_path / "ball.csv"), stages.CHAINS, stages.load).sections
+    assert sections["bench"].corrections == {"inputs.weight_1.offset": "-9.81 N"}
+    assert list(sections["diagnosis"].parameters) == ["inputs.weight_1.offset"]
+    assert not sections["lumped"].springs["support"].stiffness
