@@ -46,11 +46,22 @@ def sentences(given):
     yield (f"{len(runs)} runs, {samples} samples; held out: {', '.join(asked.held_out) or 'none'};"
            f" {len(bench.model.mass)} coordinate{'s' * (len(bench.model.mass) != 1)}; {_form(rig)}")
     names = list(dict.fromkeys([*rig.channels, *(fed.channel for fed in rig.inputs.values())]))
-    yield from (f"doubt: {sentence}" for sentence in doubts(recording, names, asked.held_out))
+    yield from (f"doubt: {sentence}" for sentence in doubts(recording, names, asked.held_out, not rig.inputs))
+    yield from _idle(bench, runs, rig, asked)
     if rig.poles is not None:
         yield "poles are compared: what they can tell is not computed beforehand"
         return
     yield from _of_model(bench, runs, rig, asked)
+
+
+def _idle(bench, runs, rig, asked):
+    """Doubts about inputs that nothing feeds: runs have 0 there, whatever force the section lumped states."""
+    stated = {name.split(".")[1] for name in (*rig.corrections, *asked.parameters) if name.startswith("inputs.")}
+    fed = {*rig.inputs, *rig.courses, *stated, rig.blow, *(key for r in runs.values() for key in r.run.conditions)}
+    for name in bench.model.input_name:
+        if name not in fed:
+            yield (f"doubt: the input {name} does nothing: no channel, course or condition of a run feeds it; of a"
+                   f" constant force write bench.corrections: {{inputs.{name}.offset: 9.81 N}}")
 
 
 def _form(rig):

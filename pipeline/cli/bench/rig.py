@@ -80,19 +80,18 @@ def quasi_static(rig_of):
 
 def _runs(file, chosen, few, named):
     """({run: (settings, run of the file, (first, after last))}, how) of one file; ``few``: runs are, so it is cut."""
-    first = chosen.responses[0]
     if not (file.cut and few):
         return {name: (setting, name, (None,)) for name, setting in file.runs.items()}, "one of each file or piece"
     (run, setting), = file.runs.items()
-    signal = file.signals[first.name]
-    lead = chosen.drives[0][0].name if chosen.drives else first.name
+    signal = file.signals[chosen.responses[0].name]
+    lead = chosen.drives[0][0].name if chosen.drives else signal.name
     spans, how = pieces(file.signals[lead].pieces[run], not chosen.drives and chosen.base is None)
     if len(spans) == 1:
         return {run: (setting, run, (None,))}, "one: the record was not cut"
-    begin, stem = file.begin, run if named else "part"
-    at = [[f"{begin + k / signal.rate:.9g} s" for k in span] for span in spans]
-    return {f"{stem}_{k + 1}": (dict(zip(("begin", "end"), at[k], strict=True)), run, span)
-            for k, span in enumerate(spans)}, how
+    first, rows = setting.get("rows", [0])[0], file.kind in ("table", "matlab")
+    at = [{"rows": [first + a, first + b]} if rows else
+          {key: f"{k / signal.rate:.9g} s" for key, k in (("begin", a), ("end", b))} for a, b in spans]
+    return {f"{run if named else 'part'}_{k + 1}": (at[k], run, span) for k, span in enumerate(spans)}, how
 
 
 def _values(files, chosen, data, used):

@@ -129,11 +129,12 @@ def _lumped(rig, bodies):
     for k, body in enumerate(bodies):
         kind, unit = ("inertia", "kg m^2") if turns[k] else ("mass", "kg")
         value = 1.0 if assumed and not turns[k] else own_mass[k]
-        if still:
-            lines.append(f"    {body}: {{moves: [x]}}         # without a time nothing is accelerated: no mass")
+        move, what = ("rotation", "moment of inertia about the axis") if turns[k] else ("x", "moving mass")
+        if _massless(rig, k):
+            why = "without a time nothing is accelerated" if still else f"<- {what}: these runs tell none"
+            lines.append(f"    {body}: {{moves: [{move}]}}   # {why}")
             continue
         origin = 'origin: assumed, source: "a scale: without a force only ratios count"' if assumed else _INFERRED
-        move, what = ("rotation", "moment of inertia about the axis") if turns[k] else ("x", "moving mass")
         lines.append(f"    {body}: {{{kind}: {{value: {value:.4g} {unit}, {origin}}}, moves: [{move}]}}   # <- {what}")
     couplings = [(i, j) for i in range(len(bodies)) for j in range(i) if v.mass[i, j] and not assumed]
     if couplings:
@@ -148,6 +149,8 @@ def _lumped(rig, bodies):
     for k, name in enumerate(names):
         lines.append(_spring(_joint(bodies, turns, k), f"between: [{name}, ground]", _held(v, k), _damping(rig, k),
                              turns[k], still))
+    if rig.roles.base is not None:     # laws are looked for at joints whose far end stands still
+        lines.append(_spring("surroundings", f"between: [{names[0]}, ground]", 0.0, _damping(rig, 0), turns[0], still))
     lines += [_spring(name, f"between: [{names[j]}, {names[i]}]" if v.stiffness[i, j] < 0 else
                       f"along: {{{names[j]}: 1, {names[i]}: 1}}", abs(v.stiffness[i, j]), None, turns[i], still)
               for name, i, j in _links(v)]
@@ -167,6 +170,11 @@ def _lumped(rig, bodies):
 def _joint(bodies, turns, k):
     stem = "bearing" if turns[k] else "support"
     return stem if len(bodies) == 1 else f"{stem}_{k + 1}"
+
+
+def _massless(rig, k):
+    """Whether a coordinate of a balance has no mass: loops without a time, or records that tell none."""
+    return rig.roles.balance and not rig.values.mass[k, k] > 0
 
 
 def _held(values, k):
@@ -207,6 +215,15 @@ def _falls(rig):
     return not rig.roles.drives and rig.roles.base is None and not rig.values.stiffness.any()
 
 
+def _weights(rig):
+    """{index of a coordinate: constant force on it} where nothing else acts; that of a fall is its weight."""
+    if rig.roles.drives or rig.roles.base is not None:
+        return {}
+    forces = {k: -float(force) for k, force in enumerate(rig.values.constant) if force}
+    return {k: float(np.sign(force)) * _GRAVITY if _falls(rig) and not _turns(rig)[k] and
+            abs(abs(force) / _GRAVITY - 1) < _LIKE_GRAVITY else force for k, force in forces.items()}
+
+
 def _inputs(rig, bodies, names, turns):
     """Lines of the inputs: what acts, a base that moves, a constant force."""
     roles, lines = rig.roles, []
@@ -218,14 +235,8 @@ def _inputs(rig, bodies, names, turns):
     if roles.base is not None:
         lines.append(f"    {roles.base.name}: {{displaces: {_joint(bodies, turns, 0)}, "
                      + ("angle: 1 rad}" if turns[0] else "displacement: 1 m}"))
-    if not roles.drives:
-        for k, force in enumerate(rig.values.constant):
-            if _falls(rig) and abs(abs(force) / _GRAVITY - 1) < _LIKE_GRAVITY and not turns[k]:
-                force = np.sign(force) * _GRAVITY
-            if force and roles.base is None:
-                unit = f"torque: {-force:.4g} N m" if turns[k] else f"force: {-force:.4g} N"
-                lines.append(f"    weight_{k + 1}: {{along: {{{names[k]}: 1}}, {unit}}}   # <- a constant force: weight"
-                             " = mass x 9.81 m/s^2, - where the channel counts upwards")
+    lines += [f"    weight_{k + 1}: {{along: {{{names[k]}: 1}}, {'torque: 1 N m' if turns[k] else 'force: 1 N'}}}"
+              "   # constant: see bench.corrections" for k in _weights(rig)]
     return ["  inputs:", *lines] if lines else []
 
 
@@ -242,6 +253,11 @@ def _bench(rig, bodies):
         lines.append(f"  step: {1e3 * step:.3g} ms                          # of the time integration: 40 a period")
         if rig.start:
             lines.append("  start: fitted                          # runs begin in motion; rest: at rest")
+    offsets = [f"inputs.weight_{k + 1}.offset: {force:.4g} {'N m' if turns[k] else 'N'}"
+               for k, force in _weights(rig).items()]
+    if offsets:
+        lines.append(f"  corrections: {{{', '.join(offsets)}}}"
+                     "   # <- weight = mass x 9.81 m/s^2, - where the channel counts upwards")
     lines.append("  channels:")
     for k, s in enumerate(roles.responses):
         quantity = ("displacement", "velocity", "acceleration")[roles.order]
@@ -270,7 +286,7 @@ def _diagnosis(rig, bodies):
     free = not roles.drives
     for k, body in enumerate(bodies):
         joint = _joint(bodies, turns, k)
-        if not free and not still:
+        if not free and not _massless(rig, k):
             lines.append(f"    masses.{body}: {{spread: 0.3}}" if len(bodies) == 1 else
                          f"    bodies.{body}.mass: {{spread: 0.3}}")
         if _held(v, k) > 0:
@@ -278,8 +294,10 @@ def _diagnosis(rig, bodies):
         if not still and not _falls(rig):
             lines.append(f"    joints.{joint}.damping: {{spread: 0.7}}")
     lines += [f"    joints.{name}.stiffness: {{spread: 0.2}}" for name, _, _ in _links(v)]
-    if _falls(rig):
-        lines += [f"    inputs.weight_{k + 1}.gain: {{spread: 0.01}}" for k, f in enumerate(v.constant) if f]
+    lines += ["    joints.surroundings.damping: {spread: 1.0}"] if roles.base is not None else []
+    for k, force in _weights(rig).items():
+        std = f"{0.01 * abs(force):.2g} {'N m' if turns[k] else 'N'}"
+        lines.append(f"    inputs.weight_{k + 1}.offset: {{prior: normal, std: {std}}}")
     for signal, k in roles.drives:
         unit = "N m" if turns[k] else "N"
         lines.append(f"    inputs.{signal.name}.offset: {{prior: normal, std: {0.05 * v.size[k]:.2g} {unit}}}"

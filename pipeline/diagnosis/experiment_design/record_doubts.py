@@ -15,13 +15,14 @@ _SIZES = {"m": (1e-9, 100.0), "rad": (1e-6, 60.0), "m/s^2": (1e-6, 1e5), "N": (1
           "m/s": (1e-9, 1e3)}
 
 
-def doubts(recording, names, held_out):
-    """[sentence] of the channels ``names`` of a product Recording, ``held_out`` runs."""
+def doubts(recording, names, held_out, free=True):
+    """[sentence] of the channels ``names`` of a product Recording, ``held_out`` runs; ``free``: nothing drives the rig,
+    so that its own vibrations are all that it shows."""
     runs = {name: run for name, run in recording.runs.items() if set(names) & set(run.channels)}
     told = [sentence for name in names for sentence in _of_channel(name, runs)]
     told += [f"{a} and {b} are one another's copy: they count as one" for a, b in combinations(names, 2)
              if _copies(a, b, runs)]
-    told += [sentence for name, run in runs.items() for sentence in _of_run(name, run, names)]
+    told += [sentence for name, run in runs.items() for sentence in _of_run(name, run, names, free)]
     compared = [name for name in runs if name not in held_out]
     if not held_out:
         told.append("no run is held out: nothing can be verified, a tie is the most; state diagnosis.held_out: [RUN]")
@@ -81,7 +82,7 @@ def _copies(a, b, runs):
     return bool(both) and all(np.corrcoef(x, y)[0, 1] > _COPY for x, y in both)
 
 
-def _of_run(name, run, names):
+def _of_run(name, run, names, free):
     first = next(c for c in names if c in run.channels)
     values, rate = _samples(run, first), float(run.channels[first].rate)
     if len(values) < _FEW:
@@ -92,8 +93,8 @@ def _of_run(name, run, names):
     density = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values))))**2
     main = float(np.sum(density[1:] * np.arange(1, len(density))) / np.sum(density[1:]) * rate / len(values))
     periods = main * len(values) / rate
-    if periods < _PERIODS:
-        yield f"run {name} lasts {periods:.1f} periods of {first}: take three or more, where it vibrates"
+    if free and periods < _PERIODS:
+        yield f"run {name} lasts {periods:.1f} periods of {first}: take three or more"
     if rate / main < _A_PERIOD:
         yield f"run {name}: {rate / main:.0f} samples in a period of {first}; {_A_PERIOD} or more are needed"
 

@@ -1,8 +1,8 @@
 """The bench of a balance of forces: it steps nothing, so that neither a step nor masses that it lacks are asked for.
 
 Sizes of priors come from nominal runs, which are simulated. Their step is the interval of the samples, or shorter
-where modes ask for it; a coordinate without a mass has one that is too small to be felt: it vibrates ``_FASTER`` times
-as fast as it is sampled.
+where modes ask for it; a coordinate without a mass, or with next to none, has one that is too small to be felt: it
+vibrates ``_FASTER`` times as fast as it is sampled.
 """
 
 from dataclasses import replace
@@ -14,6 +14,8 @@ from pipeline.case_models.effect_block import with_bare
 
 #: rate of the vibration of a coordinate without a mass, over the rate of its samples
 _FASTER = 10.0
+#: share of a damping's force that inertia may have at that rate
+_DAMPED = 0.01
 #: steps in a period of the highest mode
 _STEPS = 4.0
 
@@ -32,11 +34,10 @@ def _balanced(bench, rate):
 
 
 def _with_masses(model, fastest):
-    """The model whose coordinates all have a mass; ``fastest``: rad/s of those that had none."""
-    lacking = np.diag(model.mass) == 0
-    if not lacking.any():
-        return model
+    """The model whose coordinates vibrate at ``fastest`` rad/s at most: those without a mass, or with next to none,
+    have the mass for it."""
     _, damping, stiffness = model.supported()
-    carried = np.abs(np.diag(stiffness)) + fastest * np.abs(np.diag(damping))
+    carried = np.abs(np.diag(stiffness)) + _DAMPED * fastest * np.abs(np.diag(damping))
     carried = np.where(carried > 0, carried, carried.max() or 1.0)
-    return replace(model, mass=model.mass + np.diag(np.where(lacking, carried / fastest**2, 0.0)))
+    lacking = np.maximum(carried / fastest**2 - np.diag(model.mass), 0.0)
+    return replace(model, mass=model.mass + np.diag(lacking)) if lacking.any() else model

@@ -20,6 +20,8 @@ KINDS = {".mat": "matlab", ".wav": "audio", ".flac": "audio", ".aif": "audio", "
 _SHEETS = (".xls", ".xlsx", ".ods")
 #: fewest samples of a piece
 _FEWEST = 20
+#: share of all rows beyond which one piece stands for all
+_MOST = 0.8
 #: piece of a column of numbers that names it: runs have so many values at most
 _LABELS = 40
 
@@ -46,7 +48,7 @@ class Contents:
     """A file of ``kind``; ``settings`` {setting: value} that read its times; ``signals`` {name: Signal}.
 
     ``runs`` {run: {setting: value}}: the stretches that its own times make, one where they are one; ``cut``: whether
-    the case may cut it further, at times from ``begin`` s on; ``remarks``: what a user should know.
+    the case may cut it further; ``remarks``: what a user should know.
     """
 
     path: Path
@@ -56,7 +58,6 @@ class Contents:
     runs: dict
     cut: bool
     remarks: list = field(default_factory=list)
-    begin: float = 0.0
 
 
 def contents(path):
@@ -114,6 +115,8 @@ def _of_columns(path, kind):
     time = next((name for name, values in columns.items() if _is_time(name, values)), None)
     label = next((name for name, values in columns.items() if name != time and _is_label(name, values)), None)
     settings, spans, rate, remarks = _timing(time, columns.get(time), longest, units.get(time))
+    main = max(spans, key=lambda span: span[1] - span[0])
+    spans = [main] if main[1] - main[0] > _MOST * longest else spans
     stem, signals = _run_name(path), {}
     names = [stem] if len(spans) == 1 else [f"{stem}_{k + 1}" for k in range(len(spans))]
     turning = any(meaning(n).measures == "torque" for n in columns)
@@ -124,8 +127,7 @@ def _of_columns(path, kind):
         signals[key] = Signal(key, name, meaning(name, units.get(name, ""), turning=turning),
                               rate, {run: values[a:b] for run, (a, b) in zip(names, spans, strict=True)})
     stated = {run: {} if (a, b) == (0, longest) else {"rows": [a, b]} for run, (a, b) in zip(names, spans, strict=True)}
-    begin = 0.0 if "time" not in settings else float(columns[time][0])
-    return Contents(path, kind, settings, signals, stated, len(spans) == 1, remarks, begin)
+    return Contents(path, kind, settings, signals, stated, len(spans) == 1, remarks)
 
 
 def _is_time(name, values):
@@ -155,8 +157,6 @@ def _timing(name, time, count, unit):
         rate = float(f"{1 / np.mean(step):.4g}")
         return ({"sample_rate": f"{rate:g} Hz"}, [(0, count)], rate,
                 [f"times are rounded: an even grid of {rate:g} Hz is read; state the sampling rate that was set"])
-    if _on_grid(time, usual):
-        return settings | {"sample_rate": f"{1 / usual:.10g} Hz"}, [(0, count)], 1 / usual, ["samples are missing"]
     edges = [0, *(np.flatnonzero((step <= 0) | (step > GAP * usual)) + 1), count]
     spans = [(int(a), int(b)) for a, b in zip(edges[:-1], edges[1:], strict=True) if b - a >= _FEWEST]
     if not spans:
@@ -164,17 +164,18 @@ def _timing(name, time, count, unit):
     mean = sum(b - a - 1 for a, b in spans) / sum(time[b - 1] - time[a] for a, b in spans)
     if all(_off(time[a:b]) <= EVEN for a, b in spans):
         return settings, spans, mean, []
-    rate = float(f"{mean:.2g}")
-    jitter = max(_off(time[a:b]) for a, b in spans)
-    return (settings | {"resample": f"{rate:g} Hz"}, spans, rate,
-            [f"times are uneven (up to {jitter:.2g} intervals off a grid): interpolated on {rate:g} Hz"])
+    lost = all(_on_grid(time[a:b], usual) for a, b in spans)
+    rate = float(f"{1 / usual:.6g}") if lost else float(f"{mean:.2g}")
+    off = max(_off(time[a:b]) for a, b in spans)
+    what = "samples are missing" if lost else f"times are uneven, by {off:.2g} intervals"
+    return settings | {"resample": f"{rate:g} Hz"}, spans, rate, [f"{what}: interpolated on {rate:g} Hz"]
 
 
 def _on_grid(time, interval):
-    """Whether instants lie on an even grid of which some are missing."""
+    """Whether instants lie on an even grid, of which some may be missing."""
     position = (time - time[0]) / interval
     steps = np.diff(np.rint(position))
-    return bool((steps >= 1).all() and (steps > 1).any() and abs(position - np.rint(position)).max() < OFF_GRID)
+    return bool((steps >= 1).all() and abs(position - np.rint(position)).max() < OFF_GRID)
 
 
 def _off(time):

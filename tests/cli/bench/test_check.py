@@ -50,3 +50,10 @@ def test_without_a_held_out_run_it_says_so(tmp_path):
 
 def test_another_chain_is_refused(tmp_path):
     assert "whose recordings can be checked" in brakechain("check", "configs/belt.yaml", code=2).stderr
+
+
+def test_an_input_that_nothing_feeds_is_told(tmp_path):
+    def idle(case):
+        case["lumped"]["inputs"]["weight"] = {"along": {"shaft.rotation": 1}, "torque": "3 N m"}
+
+    assert "the input weight does nothing" in checked(tmp_path, idle)

@@ -54,3 +54,22 @@ def test_two_joints_that_gravity_couples_have_a_spring_along_their_sum(tmp_path)
     held = lumped.springs["bearing_1"]
     assert (link.torsional_stiffness, held.torsional_stiffness) == pytest.approx((0.5, 2), rel=0.05)
     assert lumped.inertias["coupling_12"].inertia == pytest.approx(0.05, rel=0.05)
+
+
+def test_beside_a_base_that_moves_laws_have_a_joint_to_the_ground(tmp_path):
+    time = np.arange(2000) / 100
+    np.savetxt(tmp_path / "rig.csv", np.column_stack((time, np.sin(6 * time), 1.5 * np.sin(6 * time - 0.2))),
+               delimiter=",", header="t,base [mm],top position [mm]", comments="", fmt="%.9g")
+    sections = case.load(written(tmp_path, tmp_path / "rig.csv"), stages.CHAINS, stages.load).sections
+    assert sections["lumped"].inputs["base"].displaces == "support" and "surroundings" in sections["lumped"].springs
+    assert sections["bench"].inputs["base"].channel == "base"
+
+
+def test_what_falls_has_its_weight_in_every_run(tmp_path):
+    time = np.arange(60) / 15
+    np.savetxt(tmp_path / "ball.csv", np.column_stack((time, 80 - 9.81 / 2 * time**2)), delimiter=",",
+               header="Time (s),Height (m)", comments="", fmt="%.9g")
+    sections = case.load(written(tmp_path, tmp_path / "ball.csv"), stages.CHAINS, stages.load).sections
+    assert sections["bench"].corrections == {"inputs.weight_1.offset": "-9.81 N"}
+    assert list(sections["diagnosis"].parameters) == ["inputs.weight_1.offset"]
+    assert not sections["lumped"].springs["support"].stiffness

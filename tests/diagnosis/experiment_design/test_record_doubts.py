@@ -8,11 +8,11 @@ from pipeline.products import Channel, Recording, Run
 TIME = np.arange(2000) / 200
 
 
-def told(held_out=("c",), **channels):
+def told(held_out=("c",), free=True, **channels):
     made = {n: Channel(samples=v, missing=np.empty((0, 2), int), unit="m", measures="displacement", rate=200.0,
                        begin=0.0, place="", position=(), direction=(), role="response") for n, v in channels.items()}
     runs = {name: Run(description="", repeat_of="", channels=made) for name in "abcd"}
-    return " ".join(doubts(Recording(source=[], runs=runs), list(channels), held_out))
+    return " ".join(doubts(Recording(source=[], runs=runs), list(channels), held_out, free))
 
 
 def wave(noise=1e-3, frequency=2.0):
@@ -30,6 +30,7 @@ def test_each_fault_has_its_sentence():
     assert "x and y are one another's copy" in told(x=wave(), y=wave())
     assert "is its unit right" in told(x=1e5 * wave())
     assert "periods of x" in told(x=wave(frequency=0.15))
+    assert "periods of x" not in told(x=wave(frequency=0.15), free=False)
     assert "samples in a period of x" in told(x=wave(frequency=40.0))
     assert "no run is held out" in told(held_out=(), x=wave())
     assert "2 fitted runs" in told(held_out=("c", "d"), x=wave())

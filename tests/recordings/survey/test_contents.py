@@ -34,9 +34,12 @@ def test_times_that_begin_anew_make_runs_of_rows(tmp_path):
 
 
 def test_lost_samples_are_gaps_of_a_grid(tmp_path):
-    kept = np.delete(np.arange(500), slice(100, 130))
+    kept = np.delete(np.arange(500), [40, 41, *range(100, 130)])
     found = contents(table(tmp_path, "t,x", kept / 200, np.sin(kept)))
-    assert found.settings == {"time": "t", "sample_rate": "200 Hz"} and found.remarks == ["samples are missing"]
+    assert found.settings == {"time": "t", "resample": "200 Hz"} and found.remarks[0].startswith("samples are missing")
+    assert found.runs == {"record_1": {"rows": [0, 98]}, "record_2": {"rows": [98, 468]}}
+    few = contents(table(tmp_path, "t,x", np.delete(kept, slice(0, 60)) / 200, np.zeros(408)))
+    assert few.runs == {"record": {"rows": [38, 408]}} and few.cut, "one piece stands for all"
 
 
 def test_rounded_times_tell_a_rate(tmp_path):
