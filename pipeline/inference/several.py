@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting import regular
+from pipeline.inference import regular
 from pipeline.inference.fitting.fit_state import Fit, from_prior_mean
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.problem import Motions, Problem

@@ -14,8 +14,8 @@ import numpy as np
 import scipy
 
 from pipeline.inference.fitting.fit_state import from_prior_mean, whitened
-from pipeline.inference.fitting.regular import log_determinant, solved
 from pipeline.inference.problem import operating_points
+from pipeline.inference.regular import log_determinant, solved
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError, sentence_of
 from pipeline.inference.fitting.effective_sample_size import tempering
-from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.regular import inverse, solved
 from pipeline.inference.time_budget import TimeSpentError, spent
 
 #: forward-difference step in latent coordinates

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from pipeline.inference.fitting.regular import inverse, solved
 from pipeline.inference.problem import operating_points
+from pipeline.inference.regular import inverse, solved
 
 DRAWS = 4000
 #: probability below which all are alike: 37 standard deviations

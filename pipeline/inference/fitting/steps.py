@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.inference.fitting.fit_state import refreshed, whitened
-from pipeline.inference.fitting.regular import solved
 from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.regular import solved
 
 #: longest step of a latent coordinate in one iteration
 _LONGEST = 1.5

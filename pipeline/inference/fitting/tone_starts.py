@@ -13,8 +13,8 @@ import numpy as np
 import scipy
 
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
-from pipeline.inference.fitting.regular import solved
 from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.regular import solved
 
 #: frequencies that are tried, and how many of them a fit begins at
 _TRIED, _BEGUN = 4, 2

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from pipeline.inference.fitting.regular import solved
+from pipeline.inference.regular import solved
 
 #: stretches of a run over which the size of a change is averaged
 _STRETCHES = 16

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.fitting.regular import log_determinant, solved
+from pipeline.inference.regular import log_determinant, solved
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ import numpy as np
 
 from pipeline.inference.fitting.effective_sample_size import tempering
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal
-from pipeline.inference.fitting.regular import log_determinant, solved
+from pipeline.inference.regular import log_determinant, solved
 
 #: most laws of a subset
 MOST = 4

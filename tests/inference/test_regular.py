@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.inference.fitting.fit_state import Fit
-from pipeline.inference.fitting.regular import inverse, log_determinant, solved
 from pipeline.inference.fitting.steps import newton_step
 from pipeline.inference.problem import Hypothesis
+from pipeline.inference.regular import inverse, log_determinant, solved
 
 
 def hessian(jacobian):
