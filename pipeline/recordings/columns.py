@@ -166,8 +166,8 @@ def table(path, delimiter=None, skip=0):
     first = 1 if units and all(units) else 0
     while first < len(rows) - 1 and not any(text.strip() for text in rows[first]):
         first += 1
-    if first >= len(rows):
-        raise ConfigError(path, "rows of numbers below its head", "none")
+    if not names or first >= len(rows):
+        raise ConfigError(path, "a head and rows of numbers below it", "none")
     names = names[:-1] if names[-1] == "Comment" and len(rows[first]) == len(names) - 1 else names
     comma = mark != "," and any(_COMMA.fullmatch(text) for text in rows[first]) and "." not in "".join(rows[first])
     values = np.full((len(rows) - first, len(names)), np.nan)
