@@ -114,3 +114,8 @@ def test_without_any_motion_what_is_left_is_the_applied_force():
     still = {name: np.zeros(run.samples) for name in ("one", "two")}
     still["one"] = still["one"] + 0.1
     np.testing.assert_allclose(equation_residual(pair(), run, still), -applied_force(pair(), run), atol=1e-9)
+
+
+def test_a_run_shorter_than_the_ends_of_the_filters_is_refused_in_a_sentence():
+    with pytest.raises(ConfigError, match="as many samples as the filters need at its ends, found 20 samples"):
+        thinned(np.zeros((1, 20)), 4, 0)
