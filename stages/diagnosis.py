@@ -1,6 +1,7 @@
 """Stage diagnosis: deviations between recordings and model, their location, and the missing physics."""
 
 import logging
+import sys
 from functools import partial
 from typing import NamedTuple
 
@@ -76,7 +77,7 @@ def _answered(problem, contacts, context):
     except Exception as error:
         logging.getLogger(__name__).debug("the diagnosis", exc_info=error)
         result = product(*unsolved(problem, error), contacts)
-        context.log(f"the diagnosis failed: {sentence_of(error)}")
+        print(f"the diagnosis failed: {sentence_of(error)}", file=sys.stderr)
         return result
 
 

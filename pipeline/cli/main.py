@@ -299,10 +299,11 @@ def completion():
 
 def main():
     """Run a command: errors become one sentence and an exit code; --debug shows the traceback."""
-    if "--debug" in sys.argv:
-        log = logging.getLogger("stages")
-        log.setLevel(logging.DEBUG)
-        log.addHandler(logging.StreamHandler())
+    debug = "--debug" in sys.argv
+    for name in ("pipeline", "stages"):     # failures that a command survives
+        log = logging.getLogger(name)
+        log.setLevel(logging.DEBUG if debug else logging.NOTSET)
+        log.handlers = [logging.StreamHandler()] if debug else []
     try:
         sys.exit(cli(standalone_mode=False))
     except click.exceptions.Exit as stop:

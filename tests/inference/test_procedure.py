@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.inference.decision import weighing
 from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
@@ -164,6 +165,31 @@ def test_a_candidate_that_fails_is_reported_and_not_judged():
     far = Hypothesis("far", (("far", "mount"),), (blown_up,))
     told = diagnose(problem, budget(problem), (*CATALOGUE[:1], far), Settings(rules=changed("screening", p_value=1.0)))
     assert "far" in told.failures and [w.candidate.name for w in told.weighed] == ["cubic"]
+
+
+def test_a_candidate_that_fails_of_a_fault_of_the_program_is_told_and_the_others_are_judged(monkeypatch):
+    problem = bench(5, 0.1)
+
+    def broken(hypothesis, values, run):
+        if "coulomb" in hypothesis.name:
+            raise ValueError("shapes (113,) and (110,)")
+        return problem.predict(hypothesis, values, run)
+
+    told = diagnose(replace(problem, predict=broken), budget(problem), CATALOGUE[:3],
+                    Settings(rules=changed("screening", p_value=1.0)))
+    failed, = [why for name, why in told.failures.items() if "coulomb" in name]
+    assert "internal error ValueError: shapes (113,) and (110,) (" in failed and "please report it" in failed
+    assert len(told.weighed) == 2
+    numbers = weighing.candidate_statistics
+
+    def singular(null, evidence, candidate, *rest):
+        if candidate.name == "cubic":
+            raise np.linalg.LinAlgError("Singular matrix")
+        return numbers(null, evidence, candidate, *rest)
+
+    monkeypatch.setattr(weighing, "candidate_statistics", singular)
+    told = diagnose(problem, budget(problem), CATALOGUE[:2], Settings(rules=changed("screening", p_value=1.0)))
+    assert "LinAlgError: Singular matrix" in told.failures["cubic"] and len(told.weighed) == 1
 
 
 def test_no_control_of_forty_is_given_a_name():

@@ -58,7 +58,7 @@ def smoothed(bench, run, measured, corner=None, order=4):
         if not 0 < corner < run.sample_rate / 2:
             raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz",
                               f"{corner:g} Hz")
-        motion = scipy.signal.sosfiltfilt(_low_pass(order, 2 * corner / run.sample_rate), motion, axis=1)
+        motion = _forth_and_back(_low_pass(order, 2 * corner / run.sample_rate), motion)
     return motion
 
 
@@ -70,7 +70,18 @@ def applied_force(bench, run, decimation=1, trim=0):
 def thinned(values, decimation, trim):
     """Every ``decimation``-th of the samples (n, samples) behind a low pass, ``trim`` left out at both ends first."""
     values = values[:, trim:values.shape[1] - trim]
-    return scipy.signal.sosfiltfilt(_before(decimation), values, axis=1)[:, ::decimation] if decimation > 1 else values
+    return _forth_and_back(_before(decimation), values)[:, ::decimation] if decimation > 1 else values
+
+
+def _forth_and_back(sections, values):
+    """(n, samples) behind second-order ``sections``, run forth and back. ConfigError for runs shorter than their ends.
+    """
+    try:
+        return scipy.signal.sosfiltfilt(sections, values, axis=1)
+    except ValueError as error:
+        raise ConfigError("equation residual: run", "as many samples as the filters need at its ends",
+                          f"{values.shape[1]} samples ({error})",
+                          "take a longer stretch, decimate less, or state no corner") from None
 
 
 @lru_cache

@@ -32,3 +32,8 @@ def test_a_stiff_base_hardly_moves():
 def pushed():
     """Pushed from rest: runs that state a start belong to one number of coordinates."""
     return replace(let_go(0.0), start=None, inputs={"input_0": 2.0})
+
+
+def test_it_is_weighed_beside_what_else_adds_a_mode():
+    """From one coordinate of a free decay two masses in series, a rider and a second mode are one and the same."""
+    assert all(named(effect).elaborate for effect in ("moving_base", "tuned_absorber", "second_mode"))

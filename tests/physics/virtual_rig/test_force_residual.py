@@ -131,3 +131,8 @@ def test_friction_at_rest_explains_no_noise(force):
     noise = 0.2 * np.random.default_rng(1).standard_normal((1, 20000))
     left, taken = held_at_rest(noise, [Resting(np.ones(1), np.ones(20000), 0.2 * force, 0.2 * force)], np.array([0.2]))
     assert np.mean(left**2 + taken * 0.2**2) > 0.995 * np.mean(noise**2)
+
+
+def test_a_run_shorter_than_the_ends_of_the_filters_is_refused_in_a_sentence():
+    with pytest.raises(ConfigError, match="as many samples as the filters need at its ends, found 20 samples"):
+        thinned(np.zeros((1, 20)), 4, 0)
