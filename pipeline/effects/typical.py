@@ -107,9 +107,13 @@ def typical(kind, bench, location, runs):
         channels.append(Sensor("force", NORMAL_FORCE, location))
         along = bench.model.contacts.tangent[bench.contacts(location)].mean(axis=0)
     others = _beside(bench, row) if kind == JOINT else {}
-    channels += [Sensor(f"{_SENSOR} {name}", JOINT_FORCE, name) for name in others]
-    model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR, _SLIP),
-                    sensor_rows=np.vstack((bench.model.sensor_rows, row, along)))
+    channels += [s for name in others for s in (
+        Sensor(f"force {name}", JOINT_FORCE, name), Sensor(f"length {name}", DISPLACEMENT, f"{_SENSOR} {name}"),
+        Sensor(f"speed {name}", VELOCITY, f"{_SENSOR} {name}"))]
+    model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR, _SLIP,
+                                              *(f"{_SENSOR} {name}" for name in others)),
+                    sensor_rows=np.vstack((bench.model.sensor_rows, row, along,
+                                           *(bench.joint(name)[0] for name in others))))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
     if kind in _CONTACTS:
         contacts, members = bench.model.contacts, bench.contacts(location)
@@ -144,9 +148,13 @@ def _moved(bench, row, runs, seen, others):
     """Largest values ``seen`` of a joint with the largest force on what it moves, of inputs the root mean square, which
     blows do not rule: the less a nominal model has at a place, the less would be looked for there."""
     model = bench.model
-    sizes = [share * seen.pop(f"{_SENSOR} {name}") for name, share in others.items()]
     if not others:
         return seen
+    sizes = []
+    for name, share in others.items():
+        (_, stiffness, damping), force = bench.joint(name), seen.pop(f"force {name}")
+        apart = stiffness * seen.pop(f"length {name}") + damping * seen.pop(f"speed {name}")
+        sizes.append(share * (force if name in model.moved_ends.values() else apart))
     pushed = [share * float(np.sqrt(np.mean(np.square(_input(bench, run, name))))) for run in runs
               for share, name in zip(_shares(bench, row, model.input_rows), model.input_name, strict=True)
               if name not in model.moved_ends]
