@@ -18,8 +18,6 @@ _KEPT, _TRIM = 3, 3
 _FAR_BETTER = 0.25
 #: force of a term over that of all below which it is left out
 _LITTLE = 0.02
-#: quantile of the slopes of loops that counts as elastic
-_STEEP = 0.8
 #: median absolute value of normal noise over its standard deviation
 _MEDIAN = 0.6745
 
@@ -44,6 +42,8 @@ class FirstValues:
 
     @property
     def fastest(self):
+        if not np.diag(self.mass).all():
+            return 0.0
         roots = scipy.linalg.eigvals(self.stiffness, self.mass)
         return float(np.sqrt(max(roots.real.max(), 0.0)))
 
@@ -65,10 +65,8 @@ def first_values(runs, forces, rate, order, quasi_static=False):
     target = -a if free else np.where(turned[:, None], -f, f)
     fitted = _fitted(q, v, a, target, wanted)
     if quasi_static and len(q) == 1:        # loops: as steep as behind a reversal, not as the chord
-        steps, lifts = np.diff(q[0]), np.diff(f[0])
-        large = np.abs(steps) > 0.1 * np.abs(steps).max()
-        fitted["stiffness"][0, 0] = np.quantile((lifts[large] / steps[large]), _STEEP)
-    mass = np.eye(len(q)) if free or "mass" not in wanted else fitted["mass"]
+        fitted["stiffness"][0, 0] = _steep([run[0] for run in runs], [force[0] for force in forces])
+    mass = np.eye(len(q)) if free else fitted["mass"]
     left = target - _force(q, v, a, fitted)
     size = np.sqrt(np.mean(target**2, axis=1))
     noise = np.maximum(_white(left, 2), 1e-3 * size)
@@ -84,6 +82,19 @@ def channel_noise(values):
     steps = np.abs(np.diff(values))
     rounding = steps[steps > 0].min() / np.sqrt(12) if (steps > 0).any() else 0.0
     return float(max(_white(values[None], 6)[0], rounding, 1e-4 * values.std()))
+
+
+def _steep(motions, forces):
+    """Slope of loops behind their reversals: the median over the two steps that follow one."""
+    slopes = []
+    for motion, force in zip(motions, forces, strict=True):
+        moved = np.diff(motion) != 0
+        steps, lifts = np.diff(motion)[moved], np.diff(force)[moved]
+        behind = np.append(False, steps[1:] * steps[:-1] < 0)
+        behind[1:] |= behind[:-1]
+        slopes.append(lifts[behind] / steps[behind])
+    slopes = np.concatenate(slopes)
+    return float(np.median(slopes[slopes > 0])) if (slopes > 0).any() else 0.0
 
 
 def _turned(q, v, a, f, wanted):

@@ -1,5 +1,8 @@
 """What a first case of recorded files is written from."""
 
+import os
+from pathlib import Path
+
 import pytest
 
 from pipeline.cli.bench.rig import rig
@@ -27,3 +30,16 @@ def test_free_decays_are_one_run_each_with_a_fitted_start(tmp_path):
 def test_files_of_other_channels_are_another_case(tmp_path):
     with pytest.raises(ConfigError, match="make another case"):
         rig([driven(tmp_path), decays(tmp_path)])
+
+
+@pytest.mark.measured
+def test_public_records_are_understood():
+    data = Path(os.environ["BRAKECHAIN_DATA"]) / "recordings"
+    arm = rig(sorted((data / "double_pendulum").glob("*.csv")))
+    assert [s.name for s in arm.roles.responses] == ["pos_meas1", "pos_meas2"]
+    assert [(s.name, k) for s, k in arm.roles.drives] == [("tau_meas1", 0), ("tau_meas2", 1)] and arm.roles.balance
+    drive = rig([data / "emps" / "DATA_EMPS.mat", data / "emps" / "DATA_EMPS_PULSES.mat"])
+    assert drive.held_out == "DATA_EMPS_PULSES" and "repeats every 6240" in drive.how[0]
+    assert drive.values.mass[0, 0] == pytest.approx(95.1089 / 35.15, rel=0.01), "the authors' mass over N/V"
+    steel = rig([data / "steel_loops" / "example_1.csv"])
+    assert steel.values.stiffness[0, 0] == pytest.approx(2e11, rel=0.5) and not steel.values.mass.any()

@@ -44,3 +44,13 @@ def test_noise_is_that_of_second_differences_or_of_rounding():
     values = np.sin(TIME) + 1e-3 * np.random.default_rng(0).standard_normal(len(TIME))
     assert channel_noise(values) == pytest.approx(1e-3, rel=0.1)
     assert channel_noise(np.round(np.sin(TIME), 1)) == pytest.approx(0.1 / np.sqrt(12), rel=0.3)
+
+
+def test_loops_without_a_time_are_as_steep_as_behind_a_reversal_and_have_no_mass():
+    strain = np.concatenate([np.linspace(0, 3, 30), np.linspace(3, -3, 60), np.linspace(-3, 3, 60)])
+    strain, stress, slip = np.repeat(strain, 2), [], 0.0       # every point twice, as some programs write
+    for e in strain:
+        slip = np.clip(slip, e - 1, e + 1)
+        stress.append(200 * (e - slip))
+    found = first_values([strain[None]], [np.array(stress)[None]], 1.0, 0, quasi_static=True)
+    assert found.stiffness[0, 0] == pytest.approx(200, rel=0.05) and not found.mass.any()
