@@ -179,13 +179,15 @@ class Responder:
     def written(self, run, measured):
         """{channel: (samples,)} of what was ``measured`` in a Run, here or on a bench that differs in the numbers of
         its channels alone."""
-        parts = round(1 / run.sample_rate / measured.step)
-        return {sensor.name: sensor.written(values, measured.step, sharp)[::parts]
-                for sensor, (values, sharp) in zip(self.bench.channels, measured.parts, strict=True)}
+        parts, written = round(1 / run.sample_rate / measured.step), {}
+        for sensor, (values, sharp) in zip(self.bench.channels, measured.parts, strict=True):
+            begin = len(values) - 1 - (run.samples - 1) * parts     # steps of a way that leads to the run
+            written[sensor.name] = sensor.written(values, measured.step, sharp, begin)[begin::parts]
+        return written
 
     def measured(self, run):
-        """Measured of the channels in a Run; errors as of ``respond``."""
-        bench = self.bench
+        """Measured of the channels in a Run, the way included that leads to it; errors as of ``respond``."""
+        bench, run = self.bench, led_in(self.bench, run)
         step = run.step(bench.step) / self._finer
         parts = round(1 / run.sample_rate / step)
         driven, inputs = resolved(bench, run, parts)
@@ -211,6 +213,25 @@ class Responder:
             shared = stepper(self._model.at_speed(speed), bench.law, friction, step, self._system)
             self._steppers[speed, step] = friction, shared
         return shared
+
+
+def led_in(bench, run):
+    """The Run, or where a bench is settled and the end of a joint moves from the begin, that with a way of half its
+    length before time 0 on which ends move as they begin: dry friction takes a way to settle."""
+    moving = [u for name, u in run.inputs.items() if name in bench.model.moved_ends and np.ndim(u) and u[1] != u[0]]
+    otherwise = run.start is not None or run.pulses or run.held or run.band_limited
+    if not (bench.settled and moving) or otherwise or any(map(np.ndim, run.conditions.values())):
+        return run
+    way = -np.arange(run.samples // 2, 0, -1)
+
+    def before(name, values):
+        values = np.asarray(values)
+        slope = values[1] - values[0] if name in bench.model.moved_ends else 0.0
+        return np.concatenate((values[0] + slope * way, values))
+
+    drive = before("", run.drive) if np.ndim(run.drive) else run.drive
+    inputs = {name: before(name, u) if np.ndim(u) else u for name, u in run.inputs.items()}
+    return replace(run, duration=run.duration + len(way) / run.sample_rate, inputs=inputs, drive=drive)
 
 
 def at_begin(bench, run):

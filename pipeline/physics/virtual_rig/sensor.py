@@ -251,9 +251,10 @@ class Sensor:
         """Displacement row (n,) that it needs of a Bench, or None."""
         return self.measurand.row(bench, self.source, self.name)
 
-    def written(self, values, step, sharp=()):
-        """What it writes of ``values`` (n,) at equal steps (s), with [(factor, part)] that are ``sharp`` on top."""
-        time = step * np.arange(len(values))
+    def written(self, values, step, sharp=(), begin=0):
+        """What it writes of ``values`` (n,) at equal steps (s), with [(factor, part)] that are ``sharp`` on top; time 0
+        is at step number ``begin``."""
+        time = step * (np.arange(len(values)) - begin)
         if np.isfinite(self.corner):
             values = low_pass(values, step, self.corner)
         if self.delay > 0:
