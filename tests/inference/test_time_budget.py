@@ -40,7 +40,7 @@ def told(problem, most):
 
 
 @pytest.mark.parametrize("truth, shares", [
-    ({"stiffness": 380.0, "extra": both}, (0.0, 0.2, 0.7)), ({}, (0.3,))], ids=["two", "none"])
+    ({"stiffness": 380.0, "extra": both}, (0.5,)), ({}, (0.0, 0.3))], ids=["two", "none"])
 def test_it_ends_at_any_time_and_names_nothing_else(truth, shares):
     problem = bench(5, 0.05, **truth)
     whole, count = told(problem, np.inf)
