@@ -11,8 +11,8 @@ from tests.fuzz.diagnoses import BAD, Outcome, apart, ran
 from tests.fuzz.random_benches import Bench
 
 #: (seed, number) of benches that once ended in an internal error or without a verdict
-MENDED = ((3, 3), (3, 7), (5, 12), *(pytest.param(*each, marks=pytest.mark.slow)
-                                     for each in ((3, 4), (3, 11), (5, 9), (5, 26))))
+MENDED = ((3, 3), (3, 7), (5, 12), (31, 91), *(pytest.param(*each, marks=pytest.mark.slow)
+                                               for each in ((3, 4), (3, 11), (5, 9), (5, 26), (31, 14))))
 
 
 def first(kind, seed=1):

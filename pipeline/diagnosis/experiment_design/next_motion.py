@@ -26,11 +26,13 @@ def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
 
     ``given`` is the section ``next`` {motion, pace or what else can change: values}, nothing: WITHIN. ConfigError for
     names that neither motions nor the bench have, and units that do not fit. Ends of joints that move make the motion
-    themselves: nothing is planned there.
+    themselves: nothing is planned there, nor where no run is fitted.
     """
     if bench.model.moved_ends:
         if given:
             raise ConfigError(where, "none where an input moves the end of a joint", ", ".join(given))
+        return ()
+    if not recorded:
         return ()
     widest = max(recorded, key=lambda name: max(map(np.ptp, _measured(bench, recorded[name]).values())))
     planned = []

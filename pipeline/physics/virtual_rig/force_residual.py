@@ -117,7 +117,7 @@ def rate_doubt(bench, run, measured, corner, order=4):
     """
     motion, highest = coordinates(bench, run, measured), run.sample_rate / 2
     low, high = corner or highest / 2, 2 * corner if corner else highest
-    less, more = (scipy.signal.sosfiltfilt(_low_pass(order, f / highest), motion, axis=1) if f < highest else motion
+    less, more = (_forth_and_back(_low_pass(order, f / highest), motion) if f < highest else motion
                   for f in (low, high))
     added = np.gradient(more - less, 1 / run.sample_rate, axis=1)
     return np.sqrt(scipy.ndimage.uniform_filter1d(added**2, 2 * int(run.sample_rate / low) + 1, mode="nearest"))
