@@ -171,9 +171,9 @@ def _report(early, pace, state, seconds):
 
 def _because(reasons, most=3, longest=100):
     """The first reasons in one line."""
-    more = f" and {len(reasons) - most} more" if len(reasons) > most else ""
-    shown = [reason if len(reason) <= longest else f"{reason[:longest]} ..." for reason in reasons[:most]]
-    return "; ".join(shown) + more
+    from pipeline.contract.errors import first_of
+
+    return first_of([reason if len(reason) <= longest else f"{reason[:longest]} ..." for reason in reasons], most, "; ")
 
 
 def _show_plan(states):

@@ -17,6 +17,12 @@ def shortened(text, most=LONGEST):
     return text if len(text) <= most else f"{text[:most - 4]} ..."
 
 
+def first_of(texts, most, separator=", "):
+    """The first ``most`` of ``texts`` in a line, and how many more there are."""
+    more = f" and {len(texts) - most} more" if len(texts) > most else ""
+    return separator.join(texts[:most]) + more
+
+
 class BrakechainError(Exception):
     """Base of every error that a user can correct; ``str(error)`` is the complete message."""
 

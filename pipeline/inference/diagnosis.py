@@ -134,24 +134,17 @@ def decided(refits, settings, base, laws=1):
     however often the null begins again."""
     late = spent()
     with within(np.inf):        # what has been fitted is weighed in any case
-        told = _decided(refits, settings, base, laws, late)
-    return told.ended() if late else told
-
-
-def _decided(refits, settings, base, laws, late):
-    """``decided``, of fits that do not go on where it is ``late``."""
-    weighing, decision = _weighed(refits, settings, base and base.null, laws)
-    if late:
-        return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
-    if _rests_on_unfinished(refits, decision):
-        refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))
         weighing, decision = _weighed(refits, settings, base and base.null, laws)
-    if _rests_on_unfinished(refits, decision):
+        if not late and _rests_on_unfinished(refits, decision):
+            refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))
+            weighing, decision = _weighed(refits, settings, base and base.null, laws)
+    if not late and _rests_on_unfinished(refits, decision):
         null = refits.calibration.null
         decision = replace(decision, verdict="unknown", named=(), reasons=(
             f"the fit of {null.hypothesis.name} did not converge after {null.evaluations} predictions, although it"
             " leaves no more than noise: check the nominal values and priors", *decision.reasons))
-    return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
+    told = Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
+    return told.ended() if late else told
 
 
 def _rests_on_unfinished(refits, decision):
@@ -183,11 +176,12 @@ class VerdictAtNoise:
 def over_noise(diagnosis, settings, factors):
     """[VerdictAtNoise] of a Diagnosis, all fitted values as they are: how far the verdict hangs on the level of noise.
     """
+    if diagnosis.cut_short:
+        return [VerdictAtNoise(float(factor), "unknown", ()) for factor in factors]
     told = []
     for factor in factors:
         _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
                                diagnosis.laws, diagnosis.objected)
-        decision = _not_yet(decision, ()) if diagnosis.cut_short else decision
         told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
     return told
 

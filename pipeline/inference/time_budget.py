@@ -37,7 +37,8 @@ def spent():
 
 
 @contextmanager
-def _until(over):
+def until(over):
+    """Context in which the time is spent once ``over()`` says so."""
     token = _SPENT.set(over)
     try:
         yield
@@ -48,7 +49,7 @@ def _until(over):
 def within(seconds):
     """Context in which the time is spent after so many CPU ``seconds`` of this process; np.inf: never."""
     end = time.process_time() + seconds
-    return _until(lambda: time.process_time() >= end)
+    return until(lambda: time.process_time() >= end)
 
 
 class TimeBudget:
@@ -64,7 +65,7 @@ class TimeBudget:
 
     def counting(self):
         """Context in which the time is spent once this budget is."""
-        return _until(lambda: self.used >= self.seconds)
+        return until(lambda: self.used >= self.seconds)
 
     def over(self, fan_out):
         """``fan_out``, its tasks within what is left."""

@@ -27,7 +27,7 @@ class Counted:
 
     @contextmanager
     def until(self, most):
-        with time_budget._until(lambda: self.count >= most):
+        with time_budget.until(lambda: self.count >= most):
             yield self
 
 

@@ -70,7 +70,8 @@ def _form(rig):
 
 def _of_model(bench, runs, rig, asked):
     """Lines from one linearisation about the nominal values."""
-    from pipeline.diagnosis.experiment_design.what_runs_tell import NEEDED, telling
+    from pipeline.contract.errors import first_of
+    from pipeline.diagnosis.experiment_design.what_runs_tell import telling
     from pipeline.diagnosis.signals.posed import posed
 
     problem = posed(bench, runs, asked, rig)
@@ -87,13 +88,13 @@ def _of_model(bench, runs, rig, asked):
                " tells them apart; state one of them, or record what differs")
     for what, names in (("effects", set(seen.power) - seen.sensors), ("faults of sensors", seen.sensors)):
         power = {name: d for name, d in seen.power.items() if name in names}
-        strong = sorted((n for n, d in power.items() if d >= NEEDED), key=power.get, reverse=True)
+        strong = sorted((n for n, d in power.items() if d >= asked.plan.needed), key=power.get, reverse=True)
         weak = [n for n in power if n not in strong]
         yield (f"{what} that these runs can tell beside the nominal values, by standard deviations at an expected"
-               f" size: {_listed([f'{n} {power[n]:.0f}' for n in strong]) or 'none'}"
-               + (f"; not: {_listed(weak)}" if weak else ""))
+               f" size: {first_of([f'{n} {power[n]:.0f}' for n in strong], _LISTED) or 'none'}"
+               + (f"; not: {first_of(weak, _LISTED)}" if weak else ""))
     if seen.untried:
-        yield f"not tried within {_BUDGET:g} s: {_listed(list(seen.untried))}"
+        yield f"not tried within {_BUDGET:g} s: {first_of(seen.untried, _LISTED)}"
     yield (f"a prediction of all runs takes {seen.seconds:.2g} CPU s; the diagnosis of {len(problem.candidates)}"
            f" candidates roughly {_rounded(seen.cost)}")
 
@@ -112,10 +113,6 @@ def _signs(seen, rig):
         elif min(size) > _OFF or max(size) < 1 / _OFF:
             yield (f"doubt: {channel}: predicted with {min(size):.2g} to {max(size):.2g} times the size that is"
                    " recorded: a unit, a gain or a nominal value is off by such a factor")
-
-
-def _listed(names):
-    return ", ".join(names[:_LISTED]) + (f" and {len(names) - _LISTED} more" if len(names) > _LISTED else "")
 
 
 def _rounded(seconds):

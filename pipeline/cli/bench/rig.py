@@ -74,8 +74,11 @@ def si(signal, values):
 
 def quasi_static(rig_of):
     """Whether the records have no time: loops of stress and strain."""
-    return rig_of.roles.balance and all("sample_rate" in f.settings and "time" not in f.settings and f.kind == "table"
-                                        for f in rig_of.files)
+    return _timeless(rig_of.files, rig_of.roles)
+
+
+def _timeless(files, chosen):
+    return chosen.balance and all("time" not in f.settings and f.kind == "table" for f in files)
 
 
 def _runs(file, chosen, few, named):
@@ -105,8 +108,7 @@ def _values(files, chosen, data, used):
         for force, (values, _) in zip(forces, data.values(), strict=True):
             for signal, k in chosen.drives:
                 force[k] += si(signal, values[signal.name])
-    timeless = chosen.balance and all("time" not in f.settings and f.kind == "table" for f in files)
-    return first_values(motions, forces, rate, chosen.order, timeless)
+    return first_values(motions, forces, rate, chosen.order, _timeless(files, chosen))
 
 
 def _held_out(files, chosen, data):

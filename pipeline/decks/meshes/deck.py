@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import ConfigError, first_of
 
 #: solid elements by their number of nodes; bodies have some of them, and the refusal of the others names them
 BY_COUNT = {20: "hexahedron20", 27: "hexahedron27", 10: "tetra10", 15: "wedge15", 13: "pyramid13", 8: "hexahedron",
@@ -142,8 +142,7 @@ def _refuse_repeated(where, kind, numbers):
 def listed(name, numbers, most=8):
     """'material 1', 'materials 1, 2' of up to ``most`` numbers, and how many more."""
     texts = [str(number) for number in sorted(numbers)]
-    more = f" and {len(texts) - most} more" if len(texts) > most else ""
-    return f"{name}{'s' * (len(texts) > 1)} {', '.join(texts[:most])}{more}"
+    return f"{name}{'s' * (len(texts) > 1)} {first_of(texts, most)}"
 
 
 def whole(text, where):

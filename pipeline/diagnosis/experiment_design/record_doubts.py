@@ -4,6 +4,8 @@ from itertools import combinations
 
 import numpy as np
 
+from pipeline.contract.errors import first_of
+
 #: share of samples at the end of a range beyond which it clips; step over standard deviation of a coarse channel
 _CLIPPED, _COARSE = 0.01, 0.1
 #: correlation of copies; samples and periods of the slowest motion that a run needs; samples a period
@@ -46,7 +48,7 @@ def _of_channel(name, runs):
         return
     still = [r for r, values in parts.items() if not np.ptp(values)]
     if still:
-        yield f"{name} never changes in {_listed(still)}: a dead channel, or an input that does nothing"
+        yield f"{name} never changes in {first_of(still, 4)}: a dead channel, or an input that does nothing"
     clipped = {r: max(np.mean(values == values.max()), np.mean(values == values.min()))
                for r, values in parts.items() if np.ptp(values) and len(np.unique(values)) > 20}
     worst = max(clipped, key=clipped.get, default=None)
@@ -97,7 +99,3 @@ def _of_run(name, run, names, free):
         yield f"run {name} lasts {periods:.1f} periods of {first}: take three or more"
     if rate / main < _A_PERIOD:
         yield f"run {name}: {rate / main:.0f} samples in a period of {first}; {_A_PERIOD} or more are needed"
-
-
-def _listed(names, most=4):
-    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -13,13 +13,12 @@ from pipeline.contract import BrakechainError
 from pipeline.diagnosis.campaign_planning import change
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.planning import campaign
+from pipeline.inference.regular import inverse
 
 #: share of its prior that a value keeps where runs say next to nothing; correlation of two that only go together
 _KEPT, _TOGETHER = 0.9, 0.97
 #: share of its prior below which a value is known well enough beside another
 _WORTH = 0.1
-#: standard deviations that name an effect
-NEEDED = 4.0
 #: CPU s of a diagnosis whatever the model; predictions of all runs per parameter of the calibration, per candidate, per
 #: value of a refit: fitted to the synthetic benches, where it holds within a factor of about two
 _ALWAYS, _CALIBRATION, _SCREENED, _REFITTED = 15.0, 48, 8, 48
@@ -68,7 +67,7 @@ def telling(posed, kept, budget):
 
 def _of_values(hypothesis, jacobian):
     """(kept, silent, pairs) of a Telling, of the values that runs share."""
-    covariance = np.linalg.inv(jacobian.T @ jacobian + np.eye(jacobian.shape[1]))
+    covariance = inverse(jacobian.T @ jacobian + np.eye(jacobian.shape[1]))
     std = np.sqrt(np.diag(covariance))
     correlation, names = covariance / np.outer(std, std), [p.name for p in hypothesis.parameters]
     shared = [k for k, p in enumerate(hypothesis.parameters) if not p.run]

@@ -57,6 +57,11 @@ class Meaning:
         return self.measures in _DRIVES
 
     @property
+    def order(self):
+        """Derivative of a displacement that it is: 1 of a velocity, 2 of an acceleration, else 0."""
+        return {"velocity": 1, "acceleration": 2}.get(self.measures, 0)
+
+    @property
     def rank(self):
         """Place among the motions that show a coordinate best, the first best; None of others."""
         return _MOVES.index(self.measures) if self.measures in _MOVES else None

@@ -28,7 +28,7 @@ class Roles:
     @property
     def order(self):
         """Derivative of a displacement that the responses are: 0, 1 or 2."""
-        return max({"velocity": 1, "acceleration": 2}.get(s.meaning.measures, 0) for s in self.responses)
+        return max(s.meaning.order for s in self.responses)
 
     @property
     def balance(self):
@@ -77,12 +77,11 @@ def _alike(one, other):
 
 def _best(moving):
     """One channel a coordinate: positions before velocities before accelerations, unfiltered ones before filtered."""
-    levels = {"velocity": 1, "acceleration": 2}
     if not moving:
         return []
-    least = min(levels.get(s.meaning.measures, 0) for s in moving)
+    least = min(s.meaning.order for s in moving)
     chosen = {}
-    for s in sorted((s for s in moving if levels.get(s.meaning.measures, 0) == least),
+    for s in sorted((s for s in moving if s.meaning.order == least),
                     key=lambda s: (s.meaning.filtered, s.meaning.rank)):
         chosen.setdefault(s.meaning.index or s.column, s)
     if len(chosen) > 1 and len({s.meaning.index for s in chosen.values()}) == 1:

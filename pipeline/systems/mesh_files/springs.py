@@ -3,7 +3,7 @@
 import numpy as np
 import scipy
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import ConfigError, first_of
 from pipeline.systems.mesh_files.bodies import bodies_of_decks
 from pipeline.systems.solids import Rows
 
@@ -27,8 +27,8 @@ def unread_springs(parameters):
     for file, spring, ends in _springs(parameters):
         if None in ends:
             lost.setdefault(file.name, []).append(spring.name)
-    return tuple(f"{file}: not read: springs that end outside the bodies: {', '.join(names[:8])}"
-                 f"{f' and {len(names) - 8} more' if len(names) > 8 else ''}" for file, names in lost.items())
+    return tuple(f"{file}: not read: springs that end outside the bodies: {first_of(names, 8)}"
+                 for file, names in lost.items())
 
 
 def _springs(parameters):
