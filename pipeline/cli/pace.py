@@ -77,8 +77,9 @@ class Pace:
 
     def forecast(self, states):
         """A sentence on the run of the planned ``states``; '' of a short one."""
-        expected = {state.stage.name: self._seconds(state.stage.name) for state in states if state.reasons}
-        total = sum(filter(None, expected.values()))
+        planned = [state.stage for state in states if state.reasons]
+        expected = {stage.name: self._seconds(stage.name) for stage in planned}
+        total = sum(filter(None, expected.values())) - self._side_by_side(planned)
         unknown = [name.replace("_", " ") for name, seconds in expected.items() if seconds is None and name in _LONG]
         if total < _WORTH_TELLING and not unknown:
             return ""
@@ -113,13 +114,25 @@ class Pace:
             partial.write_text(json.dumps(notes))
             os.replace(partial, self._path)
 
-    def _seconds(self, name):
-        """Seconds of a stage by its notes, else by the reference, or None."""
+    def _seconds(self, name, workers=None):
+        """Seconds of a stage by its notes, else by the reference with so many ``workers`` (None: all), or None."""
         noted = self._noted(name)
         if noted is not None:
             return noted
-        there = self._reference.seconds(name, self._work[name], self._workers)
+        there = self._reference.seconds(name, self._work[name], workers or self._workers)
         return None if there is None else there * self._slower()
+
+    def _side_by_side(self, planned):
+        """Seconds that the sum of those of ``planned`` stages counts twice: those that go on beside one long task, by a
+        process less. Notes do not count them, being times since the stage before."""
+        longest = next((stage for stage in planned if stage.alone), None)
+        if self._workers == 1 or longest is None or self._noted(longest.name) is not None:
+            return 0.0
+        beside = [stage.name for stage in planned[planned.index(longest) + 1:] if not stage.reads_all
+                  and longest.output not in (product for products in stage.inputs.values() for product in products)]
+        with_all, without = (sum(filter(None, (self._seconds(name, workers) for name in beside)))
+                             for workers in (self._workers, self._workers - 1))
+        return with_all * min(1.0, (self._seconds(longest.name) or 0.0) / without) if without else 0.0
 
     def _noted(self, name):
         """Seconds of a stage by its notes, or None; those with fewer variants went on from an interrupted run."""

@@ -35,7 +35,7 @@ def rows_of(config, folder):
             with h5py.File(file) as product:
                 cpu, wall = (float(product["provenance"].attrs[f"{kind}_seconds"]) for kind in ("cpu", "wall"))
             if cpu >= _SHORTEST and name not in _UNMEASURED:
-                beside = 1.0 if stages.load(name).alone else min(max(2 * (1 - wall / cpu), 0.0), 1.0)
+                beside = 0.0 if stages.load(name).alone else min(max(2 * (1 - wall / cpu), 0.0), 1.0)
                 rows[name] = Row(size, round(cpu, 2), round(beside, 2))
     return rows
 

@@ -29,8 +29,10 @@ def made(monkeypatch, folder, measure=1.0, workers=2, stages=None):
     return Pace(SimpleNamespace(case=SimpleNamespace(sections={"structure": True})), workers, folder)
 
 
-def state(name, variant="", reasons=("new",)):
-    return SimpleNamespace(stage=SimpleNamespace(name=name), variant=variant, reasons=reasons)
+def state(name, variant="", reasons=("new",), **options):
+    stage = SimpleNamespace(**{"name": name, "alone": False, "reads_all": name == "report", "inputs": {},
+                               "output": name, **options})
+    return SimpleNamespace(stage=stage, variant=variant, reasons=reasons)
 
 
 STATES = [state("structure"), state("probability"), state("report")]
@@ -118,6 +120,21 @@ def test_what_has_run_tells_the_pace_of_what_has_not(monkeypatch, tmp_path, cloc
     clock.time += 300.0
     first.note(state("structure"), 300.0)
     assert first._seconds("probability") == pytest.approx(3 * 2 * 80 * 0.75)
+
+
+def test_what_runs_beside_a_long_task_is_counted_once(monkeypatch, tmp_path, clock):
+    """80 s of draws, 40 by two processes, are done beside the long task; what reads its product waits for it."""
+    table = {"structure": [[1.0, 50.0, 0.0]], "probability": [[1.0, 40.0, 1.0]], "report": [[1.0, 5.0, 0.0]]}
+    states = [state("structure", alone=True), *STATES[1:]]
+    assert made(monkeypatch, tmp_path, stages=table).forecast(states).startswith("this will take about 2 min")
+    first = made(monkeypatch, tmp_path, stages=table)
+    assert first._side_by_side([s.stage for s in states]) == pytest.approx(2 * 20)
+    assert made(monkeypatch, tmp_path, workers=1, stages=table)._side_by_side([s.stage for s in states]) == 0
+    reader = state("probability", inputs={"before": ("structure",)})
+    assert first._side_by_side([states[0].stage, reader.stage]) == 0
+    table["structure"] = [[1.0, 20.0, 0.0]]
+    shorter = made(monkeypatch, tmp_path, stages=table)
+    assert shorter._side_by_side([s.stage for s in states]) == pytest.approx(2 * 10), "half of the draws are made after"
 
 
 def test_too_little_memory_is_said_before_the_start(monkeypatch, tmp_path, clock):
