@@ -155,8 +155,9 @@ def _rests_on_unfinished(refits, decision):
 def _weighed(refits, settings, null, laws, objected=None):
     """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws`` together, as it stands
     beside the Fit ``null``."""
-    settings = several_laws.allowing(settings, laws)
-    weighing, calibration = weigh(refits, settings), refits.calibration
+    calibration = refits.calibration
+    settings = several_laws.allowing(settings, laws, bool(calibration.problem.nominal.effects))
+    weighing = weigh(refits, settings)
     if laws > 1:
         weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
     weighing = weighing.objected(objected or {})

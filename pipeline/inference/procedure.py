@@ -18,18 +18,22 @@ from pipeline.inference import several
 from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
+from pipeline.inference.fitting.begins import begun_as
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 from pipeline.inference.fitting.refitted import NOT_BEGUN
-from pipeline.inference.fitting.refitting import Refitter, refit_catalogue, refit_from
+from pipeline.inference.fitting.refitting import Refitter, brought_on, refit_catalogue, refit_from
+from pipeline.inference.long_records import beginnings
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.search.score_screen import screen_catalogue
 from pipeline.inference.search.selection import Combination, merged, sets_and_parts
-from pipeline.inference.time_budget import TimeSpentError, spent, within
+from pipeline.inference.time_budget import TimeSpentError, share, spent, within
 
 #: share of the best candidate's gain at which another one tells that its place matters
 _FELT = 0.05
+#: part of the time that goes to the beginnings of long records at most
+_BEGINNINGS = 0.6
 
 
 def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None, tell=None):
@@ -41,26 +45,14 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). What a
     named law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the
     nominal model has no fit. ``tell(Decision)`` hears what is decided first, to be sharpened. Where the time is spent
-    (``time_budget``) before all was tried beside one law nothing is named; what else was not tried is told.
+    (``time_budget``) before all was tried beside one law nothing is named; what else was not tried is told. Long
+    records are diagnosed on their beginnings first (``long_records``).
     """
     settings, problem = settings or Settings(), problem.for_all(catalogue)
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out, tell)
-    _, single = asked.steps()
-    try:
-        if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing") and not single.cut_short:
-            single = (asked.along(single, motions) if motions else
-                      asked.by_the_screen(asked.pairs(single, asked.catalogue)))
-        if settings.tied_seconds and single.decision.verdict == "unknown":
-            return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
-    except TimeSpentError:
-        pass
-    except Exception as error:      # what one law alone came to stands
-        single = single.remarked(f"whether several laws act together could not be weighed: {sentence_of(error)}")
-    if spent() and single.base is None and not single.cut_short:
-        single = single.remarked("whether several laws act together was not tried to the end, as the time was spent;"
-                                 " allow more by diagnosis.time")
-    with within(np.inf):        # what it names is examined in any case
-        return asked.of_its_form(single)
+    short = beginnings(problem, budget)
+    told = asked.on_the_whole(replace(asked, problem=short[0], budget=short[1]), motions) if short else None
+    return told or asked.diagnosed(motions)
 
 
 @dataclass(frozen=True)
@@ -73,6 +65,61 @@ class Asked:
     settings: Settings
     fan_out: FanOut
     tell: Callable | None = None
+
+    def diagnosed(self, motions):
+        """Diagnosis by one law, else several, along Motions where there are."""
+        _, single = self.steps()
+        try:
+            open_ = single.decision.verdict in ("unknown", "missing") and not single.cut_short
+            if open_ and len(self.problem.runs) > 1:
+                single = (self.along(single, motions) if motions else
+                          self.by_the_screen(self.pairs(single, self.catalogue)))
+            if self.settings.tied_seconds and single.decision.verdict == "unknown":
+                return self._tied_pair(single)
+        except TimeSpentError:
+            pass
+        except Exception as error:      # what one law alone came to stands
+            single = single.remarked(f"whether several laws act together could not be weighed: {sentence_of(error)}")
+        if spent() and single.base is None and not single.cut_short:
+            single = single.remarked("whether several laws act together was not tried to the end, as the time was"
+                                     " spent; allow more by diagnosis.time")
+        with within(np.inf):        # what it names is examined in any case
+            return self.of_its_form(single)
+
+    def on_the_whole(self, shorter, motions):
+        """Diagnosis of what the beginnings of the runs, asked ``shorter``, came to; None where these mislead: what they
+        found consistent, or named, the whole of the runs calls unknown, and something else leads there, or their values
+        cannot predict it."""
+        with share(_BEGINNINGS):
+            first = shorter.diagnosed(motions)
+        try:
+            told = replace(self._as_found(first), combinations=first.combinations)
+        except BrakechainError:
+            return None
+        names = {c.name for c in first.decision.named}
+        lead = next((w.candidate.name for w in told.weighed), None)
+        misled = told.decision.verdict == "unknown" != first.decision.verdict and lead not in names
+        if misled and not spent():
+            return None
+        with within(np.inf):
+            return self.of_its_form(told.ended() if first.cut_short else told)
+
+    def _as_found(self, first):
+        """Diagnosis, by these runs, of the hypotheses that a Diagnosis ``first`` of parts of them has fitted, begun at
+        its values, and of what it overlooks."""
+        base, settings = first.base and self._as_found(first.base), self.settings
+        problem, catalogue = replace(self.problem, nominal=first.nominal), first.refits.refitter.catalogue
+        noises = tuple(self.budget[run.name] for run in problem.training)
+        fits = {i: r.fit for i, r in first.refits.results.items() if r.fit}
+        best = sorted(fits, key=lambda i: fits[i].objective)[:settings.kept]
+        with within(np.inf):        # as they are, in any case
+            null = linearised(problem, noises, first.nominal, first.null.latent, problem.training)
+            begins = {i: begun_as(problem, noises, fits[i]) for i in best}
+        null = continued(problem, null, patient=False)
+        screening = screen_catalogue(Calibration(problem, self.budget, null), catalogue, settings, self.fan_out,
+                                     base is not None)
+        refits = brought_on(screening, catalogue, begins, settings, self.fan_out)
+        return decided(refits, settings, base, first.laws)
 
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
@@ -284,6 +331,20 @@ class Asked:
         dispensable = alone.decision.verdict in second_effect.NAMING and not second_effect.remains(first, pair, rules)
         return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
 
+    def _tied_pair(self, single):
+        """The first Diagnosis that names anything beside a significant effect taken as known; ``single`` where none
+        does."""
+        rules = self.settings.rules.decision
+        for first in single.weighed:
+            if first.statistics.p_value > rules.p_value or first.statistics.evidence_gain < rules.evidence_gain:
+                continue
+            rest = tuple(c for c in self.catalogue if c.name != first.candidate.name)
+            pair = diagnose(self.problem.given(first.refined), self.budget, rest,
+                            replace(self.settings, tied_seconds=False), self.fan_out)
+            if pair.decision.named:
+                return replace(pair, base=single)
+        return single
+
     def of_its_form(self, told):
         """A Diagnosis ``told``, decided anew without laws that it names and that are of another form; where nothing can
         be said, whether noise may be what is left, and which tones stand out of it."""
@@ -298,7 +359,7 @@ class Asked:
                 break
             objected = {first.candidate.name: why}
             weighing = told.weighing.objected(objected)
-            decision = weighing.decided(several_laws.allowing(settings, told.laws).rules)
+            decision = weighing.decided(several_laws.allowing(settings, told.laws, bool(told.nominal.effects)).rules)
             told = replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
@@ -325,17 +386,3 @@ def _where_felt(elaborate, simple, screen, refits):
         if gains[i] >= _FELT * most or explained.get(i, -1.0) >= _FELT * best:
             felt |= places(candidate)
     return tuple(c for c in elaborate if places(c) & felt)
-
-
-def _tied_pair(problem, budget, catalogue, settings, fan_out, single):
-    """The first Diagnosis that names anything beside a significant effect taken as known; ``single`` where none does.
-    """
-    rules = settings.rules.decision
-    for first in single.weighed:
-        if first.statistics.p_value > rules.p_value or first.statistics.evidence_gain < rules.evidence_gain:
-            continue
-        rest = tuple(c for c in catalogue if c.name != first.candidate.name)
-        pair = diagnose(problem.given(first.refined), budget, rest, replace(settings, tied_seconds=False), fan_out)
-        if pair.decision.named:
-            return replace(pair, base=single)
-    return single

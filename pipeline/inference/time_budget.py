@@ -21,6 +21,8 @@ from pipeline.contract.errors import ConvergenceError
 
 #: whether the time of the diagnosis that runs here is spent
 _SPENT = ContextVar("time of a diagnosis", default=lambda: False)
+#: its TimeBudget, in the process that counts it
+_BUDGET = ContextVar("budget of a diagnosis", default=None)
 
 
 class TimeSpentError(ConvergenceError):
@@ -52,26 +54,49 @@ def within(seconds):
     return until(lambda: time.process_time() >= end)
 
 
+@contextmanager
+def share(part):
+    """Context with this ``part`` of what is left of the time of the diagnosis that runs here, if any is counted."""
+    budget = _BUDGET.get()
+    if budget is None:
+        yield
+        return
+    whole = budget.seconds
+    budget.seconds = budget.used + part * max(whole - budget.used, 0.0)
+    try:
+        yield
+    finally:
+        budget.seconds = whole
+
+
 class TimeBudget:
     """CPU ``seconds`` of one core; ``by_name`` {hypothesis: CPU seconds} of tasks that were about one."""
 
     def __init__(self, seconds=np.inf):
         self.seconds, self._begin, self._elsewhere, self.by_name = seconds, time.process_time(), Counter(), Counter()
+        self._rounds = 0
 
     @property
     def used(self):
         """CPU seconds so far."""
         return time.process_time() - self._begin + max(self._elsewhere.values(), default=0.0)
 
+    @contextmanager
     def counting(self):
         """Context in which the time is spent once this budget is."""
-        return until(lambda: self.used >= self.seconds)
+        token = _BUDGET.set(self)
+        try:
+            with until(lambda: self.used >= self.seconds):
+                yield
+        finally:
+            _BUDGET.reset(token)
 
     def over(self, fan_out):
         """``fan_out``, its tasks within what is left."""
         def counted(function, items):
-            results = []
-            for result, name, process, took in fan_out(partial(_timed, function, self.seconds - self.used), items):
+            results, self._rounds = [], self._rounds + 1
+            timed = partial(_timed, function, (id(self), self._rounds), self.seconds - self.used)
+            for result, name, process, took in fan_out(timed, items):
                 self.by_name[name] += took
                 if process != os.getpid():
                     self._elsewhere[process] += took
@@ -81,10 +106,18 @@ class TimeBudget:
         return counted
 
 
-def _timed(function, seconds, item):
-    """(``function(item)``, name of the hypothesis that it is about, process, CPU seconds)."""
-    begin = time.process_time()
-    with within(seconds):
+#: the round of tasks that this process has its share of, and its CPU time when that began
+_ROUND = [None, 0.0]
+
+
+def _timed(function, this_round, seconds, item):
+    """(``function(item)``, name of the hypothesis that it is about, process, CPU seconds); all tasks of one round in
+    one process have so many ``seconds`` together."""
+    begin, over = time.process_time(), _SPENT.get()
+    if _ROUND[0] != this_round:
+        _ROUND[:] = this_round, begin
+    end = _ROUND[1] + seconds
+    with until(lambda: over() or time.process_time() >= end):
         result = function(item)
     return result, _name(item), os.getpid(), time.process_time() - begin
 

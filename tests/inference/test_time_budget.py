@@ -78,3 +78,31 @@ def test_tasks_of_other_processes_count_side_by_side():
         spent.over(elsewhere)(None, [(-1, "d")])
         assert time_budget.spent()
     assert not time_budget.spent()
+
+
+def test_tasks_of_a_round_in_one_process_share_what_is_left(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(time_budget.time, "process_time", lambda: now[0])
+
+    def task(seconds):
+        now[0] += seconds
+        return time_budget.spent()
+
+    assert time_budget.TimeBudget(10.0).over(map)(task, [4.0, 4.0, 4.0]) == [False, False, True]
+
+
+def test_a_part_of_the_time_goes_to_what_comes_first(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(time_budget.time, "process_time", lambda: now[0])
+    with time_budget.share(0.5):
+        assert not time_budget.spent(), "nothing is counted"
+    with time_budget.TimeBudget(10.0).counting():
+        now[0] = 2.0
+        with time_budget.share(0.5):
+            now[0] = 5.9
+            assert not time_budget.spent()
+            now[0] = 6.1
+            assert time_budget.spent()
+        assert not time_budget.spent()
+        now[0] = 10.1
+        assert time_budget.spent()

@@ -97,9 +97,10 @@ class MeasuredMotions:
         """The Problem of the fitted runs along the motions that the Fit ``null`` shows, corrected by what was measured.
         """
         bench = completed(self.bench, null.hypothesis, null.values)
-        motions = {run.name: motion(bench, begun(self.runs[run.name], null.hypothesis, null.values), run,
+        runs = {run.name: self.runs[run.name].until(run.samples.shape[1]) for run in null.runs}
+        motions = {run.name: motion(bench, begun(runs[run.name], null.hypothesis, null.values), run,
                                     self.budget[run.name]) for run in null.runs}
-        return Problem(null.runs, AlongMotions(self.bench, self.runs, motions), null.hypothesis)
+        return Problem(null.runs, AlongMotions(self.bench, runs, motions), null.hypothesis)
 
 
 def measured(bench, channels):

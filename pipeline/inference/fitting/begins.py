@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract.errors import instead, sentence_of
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import begun
-from pipeline.inference.fitting.fit_state import whitened
+from pipeline.inference.fitting.fit_state import linearised, whitened
 from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.steps import within
 from pipeline.inference.search.score_screen import (
@@ -82,6 +82,12 @@ def begun_at(problem, anchor, item):
     candidate, start = item
     starts = _starts(anchor.latent, [start]) + tone_starts.starts(problem, anchor, candidate)
     return tried(problem, anchor, candidate, starts, [anchor] * len(starts))
+
+
+@instead(lambda error, *_: (None, sentence_of(error)))
+def begun_as(problem, noises, fit):
+    """(Fit linearised at the values of a Fit to parts of the fitted runs, "") or (None, what went wrong)."""
+    return linearised(problem, noises, fit.hypothesis, fit.latent, problem.training), ""
 
 
 def as_limit(limit, whole, latent):

@@ -14,7 +14,7 @@ from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, 
 from pipeline.inference.fitting.calibration import Calibration, ahead_of
 from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import again, beside
-from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest
+from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest, nearby
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.fitting.widening import TIMES, widened
 from pipeline.inference.problem import FanOut, Problem
@@ -77,6 +77,14 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
     refitter = replace(refitter, null=better.null)
     again = tuple(fan_out(partial(directions, better.problem, better.null), refitter.catalogue))
     return Refits(better, again, results, refitter)
+
+
+def brought_on(screening, catalogue, begins, settings, fan_out):
+    """Refits of candidates whose fits ``begins`` {index: (Fit or None, why there is none)} begin near their ends, and
+    of what outshines them."""
+    refitter = Refitter.about(screening.calibration, catalogue, settings, fan_out)
+    results = refitter.brought_on(begins)
+    return Refits(screening.calibration, screening.directions, refitter.with_overlooked(screening, results), refitter)
 
 
 def refit_from(screening, catalogue, results, settings, fan_out):
@@ -333,6 +341,16 @@ class Refitter:
             if self.overtaken(ended):
                 break
         return ended
+
+    def brought_on(self, begins):
+        """{index: Refitted} of fits that began: the best goes to its end, others as far as they may come near it."""
+        results = {i: Refitted(None, None, why) for i, (fit, why) in begins.items() if fit is None}
+        begun = {i: fit for i, (fit, _) in begins.items() if fit is not None}
+        for i in sorted(begun, key=lambda i: begun[i].objective):
+            enough = self._enough(results.values())
+            results[i] = (Refitted(nearby(self.problem, enough, begun[i]), None, "") if np.isfinite(enough) else
+                          finished(self.problem, self.null, enough, self.rules, begun[i]))
+        return results
 
     def _raced(self, fits):
         """The best few {index: Fit} of those that have begun, best first: the better half goes on, again and again.

@@ -43,7 +43,9 @@ def test_a_share_that_an_error_of_the_others_may_be_is_not_enough():
 def test_values_may_vary_by_the_errors_of_all_laws():
     rules = several_laws.allowing(Settings(), 3).rules.decision
     assert rules.varies_by == pytest.approx(3 * DEFAULTS.decision.law_error)
-    assert several_laws.allowing(Settings(), 1).rules.decision.varies_by == DEFAULTS.decision.varies_by
+    assert rules.varies_too_much == rules.varies_by, "what holds only in part is not named with others"
+    alone, beside = (several_laws.allowing(Settings(), 1, second).rules.decision for second in (False, True))
+    assert alone == DEFAULTS.decision and beside.varies_too_much == alone.varies_by < alone.varies_too_much
 
 
 def test_a_fit_that_may_still_leave_little_enough_is_not_given_up():
