@@ -9,6 +9,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.effects.contact.contact_surface import sliding_angle
 from pipeline.effects.resolved import felt_mass
 from pipeline.physics.contact.groups import parts
+from pipeline.physics.time_stepping.elements import Wave
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from pipeline.physics.virtual_rig.inputs import run_inputs
 from pipeline.physics.virtual_rig.response import respond, run_drive
@@ -158,6 +159,8 @@ def _moved(bench, row, runs, seen, others):
     pushed = [share * float(np.sqrt(np.mean(np.square(_input(bench, run, name))))) for run in runs
               for share, name in zip(_shares(bench, row, model.input_rows), model.input_name, strict=True)
               if name not in model.moved_ends]
+    pushed += [float(_shares(bench, row, e.row)[0]) * abs(e.law.amplitude) for e in model.elements
+               if isinstance(e.law, Wave) and not (e.law.order or e.law.frequency)]     # as weights
     return seen | {"force": float(max([seen["force"], *sizes, *pushed])), "pushed": float(max(pushed, default=0.0))}
 
 

@@ -21,6 +21,7 @@ from pipeline.effects.typical import (
     locations,
     typical,
 )
+from pipeline.physics.time_stepping.elements import Element, Wave
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start
 from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import RATE, let_go, pressed, rubbing, slider, sprung, steady
@@ -46,6 +47,8 @@ def test_the_force_at_a_joint_is_the_largest_on_what_it_moves():
     assert typical(JOINT, walled, "wall", (run,)).force == pytest.approx(8.0, rel=1e-3)
     pushed = typical(JOINT, walled, "wall", (replace(run, inputs={"push": 100.0}),))
     assert (pushed.force, pushed.scaled(0.1).force) == (pytest.approx(92.0, rel=1e-3), pytest.approx(50.0))
+    heavy = walled.with_elements(Element("weight", np.array([1.0]), Wave(1.0, amplitude=-60.0)))
+    assert typical(JOINT, heavy, "wall", (run,)).pushed == pytest.approx(60.0), "a weight is a force as any other"
 
 
 @pytest.mark.exact

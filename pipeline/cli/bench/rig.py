@@ -89,7 +89,7 @@ def _runs(file, chosen, few, named):
     signal = file.signals[chosen.responses[0].name]
     lead = chosen.drives[0][0].name if chosen.drives else signal.name
     spans, how = pieces(file.signals[lead].pieces[run], not chosen.drives and chosen.base is None)
-    if len(spans) == 1:
+    if sum(b - a >= _FEWEST for a, b in spans) < 2:
         return {run: (setting, run, (None,))}, "one: the record was not cut"
     first, rows = setting.get("rows", [0])[0], file.kind in ("table", "matlab")
     at = [{"rows": [first + a, first + b]} if rows else

@@ -27,3 +27,13 @@ def decays(folder):
     np.savetxt(file, np.column_stack((np.arange(2400) / rate, motion)), delimiter=",", header="t,x [mm]", comments="",
                fmt="%.9g")
     return file
+
+
+def drop(folder, name, seed=0):
+    """A CSV of the 54 heights that a video saw of a ball that falls from 47 m."""
+    time = np.arange(54) / 15.0
+    height = 47.0 - 4.905 * time**2 * (1 - 0.05 * time) + 0.02 * np.random.default_rng(seed).standard_normal(54)
+    file = folder / name
+    np.savetxt(file, np.column_stack((time, height)), delimiter=",", header="Time (s),Height (m)", comments="",
+               fmt="%.9g")
+    return file

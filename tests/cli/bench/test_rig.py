@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.cli.bench.rig import rig
 from pipeline.contract import ConfigError
-from tests.cli.bench.rigs import decays, driven
+from tests.cli.bench.rigs import decays, driven, drop
 
 
 def test_a_long_record_is_cut_and_one_run_held_out(tmp_path):
@@ -25,6 +25,11 @@ def test_free_decays_are_one_run_each_with_a_fitted_start(tmp_path):
     found = rig([decays(tmp_path)])
     assert len(found.runs[0]) == 3 and found.start == "fitted" and not found.roles.balance
     assert found.noise["x"] == pytest.approx(1e-6, rel=0.2)
+
+
+def test_a_record_too_short_to_be_cut_is_one_run(tmp_path):
+    found = rig([drop(tmp_path, "first.csv"), drop(tmp_path, "second.csv", seed=1)])
+    assert [list(runs) for runs in found.runs] == [["first"], ["second"]] and found.held_out == "second"
 
 
 def test_files_of_other_channels_are_another_case(tmp_path):
