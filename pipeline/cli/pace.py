@@ -138,7 +138,20 @@ class Pace:
         """Seconds of a stage by its notes, or None; those with fewer variants went on from an interrupted run."""
         notes = self._notes.get(self._key(name), [])
         whole = max((note.variants for note in notes), default=0)
-        return _scaled([note for note in notes if note.variants == whole], self._work[name])
+        return self._scaled(name, [note for note in notes if note.variants == whole])
+
+    def _scaled(self, name, notes):
+        """Seconds of a stage by its ``notes``: median of those of this size, or of near ones as the reference grows
+        with the size, in proportion where it says nothing."""
+        size = self._work[name]
+        notes = [note for note in notes if 1 / NEAR < note.work / size < NEAR]
+        same = [note for note in notes if 1 / _SAME < note.work / size < _SAME]
+        seconds = [note.seconds * self._grown(name, note.work, size) for note in same or notes]
+        return median(seconds) if seconds else None
+
+    def _grown(self, name, work, size):
+        there, here = (self._reference.seconds(name, each, self._workers) for each in (work, size))
+        return here / there if there and here else size / work
 
     def _slower(self):
         """Time that this machine takes over that of the reference: by the stages that have run here, in the median, or
@@ -153,14 +166,6 @@ class Pace:
         if _PROCESSOR not in self._notes:
             self._keep(_PROCESSOR, Note(1.0, measured(), 0.0))
         return self._notes[_PROCESSOR][-1].seconds / self._reference.processor
-
-
-def _scaled(notes, size):
-    """Seconds for a ``size`` of work: median of the notes of this size, or of near ones in proportion."""
-    notes = [note for note in notes if 1 / NEAR < note.work / size < NEAR]
-    same = [note for note in notes if 1 / _SAME < note.work / size < _SAME]
-    seconds = [note.seconds * size / note.work for note in same or notes]
-    return median(seconds) if seconds else None
 
 
 def _read(path):

@@ -69,6 +69,15 @@ def test_times_are_in_proportion_to_the_work_and_those_of_the_same_work_count_fi
     assert "about 8 min" in made(monkeypatch, tmp_path, measure=3.0).forecast(STATES)
 
 
+def test_times_of_another_size_grow_as_those_of_the_reference_do(monkeypatch, tmp_path, clock):
+    """Twice the work takes three times as long there, and here."""
+    table = {"structure": [[1.0, 10.0, 0.0], [2.0, 30.0, 0.0]], "probability": [], "report": []}
+    run(made(monkeypatch, tmp_path, stages=table), clock, 60.0)
+    larger = made(monkeypatch, tmp_path, measure=2.0, stages=table)
+    assert larger._seconds("structure") == pytest.approx(3 * 60)
+    assert larger._seconds("probability") == pytest.approx(2 * 60), "in proportion where it says nothing"
+
+
 def test_what_has_not_run_is_named(monkeypatch, tmp_path, clock):
     first = made(monkeypatch, tmp_path)
     clock.time += 50.0
