@@ -32,10 +32,9 @@ def _end(run, noise, share):
     """Number of samples of the beginning of an Observed run: a ``share`` of the usable ones, or as many more as it
     takes until it moves as the whole does."""
     first, usable = noise.horizon(share, _FEWEST), noise.usable
-    counts = usable.sum(axis=1, keepdims=True)
-    centred = np.where(usable, run.samples, 0.0)
-    centred = np.where(usable, centred - centred.sum(axis=1, keepdims=True) / np.maximum(counts, 1), 0.0)
-    size = np.maximum((centred ** 2).sum(axis=1, keepdims=True), 1e-300)
-    moved = np.cumsum((centred ** 2 / size).mean(axis=0))
+    values = np.where(usable, run.samples, 0.0)
+    mean = values.sum(axis=1, keepdims=True) / np.maximum(usable.sum(axis=1, keepdims=True), 1)
+    power = usable * (values - mean) ** 2
+    moved = np.cumsum((power / np.maximum(power.sum(axis=1, keepdims=True), 1e-300)).mean(axis=0))
     lively = int(np.searchsorted(moved, _LIVELY * share * moved[-1])) + 1
     return max(first, lively)

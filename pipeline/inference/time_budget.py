@@ -14,6 +14,7 @@ from collections import Counter
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
+from itertools import count
 
 import numpy as np
 
@@ -74,7 +75,6 @@ class TimeBudget:
 
     def __init__(self, seconds=np.inf):
         self.seconds, self._begin, self._elsewhere, self.by_name = seconds, time.process_time(), Counter(), Counter()
-        self._rounds = 0
 
     @property
     def used(self):
@@ -94,8 +94,7 @@ class TimeBudget:
     def over(self, fan_out):
         """``fan_out``, its tasks within what is left."""
         def counted(function, items):
-            results, self._rounds = [], self._rounds + 1
-            timed = partial(_timed, function, (id(self), self._rounds), self.seconds - self.used)
+            results, timed = [], partial(_timed, function, (os.getpid(), next(_ROUNDS)), self.seconds - self.used)
             for result, name, process, took in fan_out(timed, items):
                 self.by_name[name] += took
                 if process != os.getpid():
@@ -106,7 +105,9 @@ class TimeBudget:
         return counted
 
 
-#: the round of tasks that this process has its share of, and its CPU time when that began
+#: numbers of the rounds of tasks that this process hands out
+_ROUNDS = count()
+#: the round that this process has its share of, and its CPU time when that began
 _ROUND = [None, 0.0]
 
 

@@ -11,8 +11,6 @@ from pipeline.inference.fitting.least_squares import continued, iterated
 _GIVEN_UP = 16
 #: iterations after which the worse half of the candidates that have begun is given up
 _LAP = 4
-#: iterations of a fit that begins near its optimum
-_NEARBY = 10
 
 
 class Refitted(NamedTuple):
@@ -41,17 +39,11 @@ def lowest(results, others):
     return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
-@instead(lambda error, problem, enough, fit: fit)
-def advanced(problem, enough, fit):
+@instead(lambda error, problem, enough, fit, **_: fit)
+def advanced(problem, enough, fit, iterations=_LAP):
     """A Fit after a few more iterations, as far as its forward model goes; as it is where it cannot come to ``enough``.
     """
-    return fit if fit.converged else iterated(problem, fit, _LAP, enough, patient=False)
-
-
-@instead(lambda error, problem, enough, fit: fit)
-def nearby(problem, enough, fit):
-    """A Fit that begins near its optimum after the iterations that it takes from there, as far as its model goes."""
-    return iterated(problem, fit, _NEARBY, enough, patient=False)
+    return fit if fit.converged else iterated(problem, fit, iterations, enough, patient=False)
 
 
 @instead(lambda error, problem, null, enough, rules, begin: Refitted(begin, None, sentence_of(error)))

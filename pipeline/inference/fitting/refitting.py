@@ -14,7 +14,7 @@ from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, 
 from pipeline.inference.fitting.calibration import Calibration, ahead_of
 from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import again, beside
-from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest, nearby
+from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.fitting.widening import TIMES, widened
 from pipeline.inference.problem import FanOut, Problem
@@ -26,6 +26,8 @@ from pipeline.inference.time_budget import TimeSpentError, spent
 _ROUNDS = 4
 #: share of its objective to which a nominal model comes down from the optimum of a candidate, so that all begins anew
 _OVERTAKEN = 0.5
+#: iterations of a fit that begins near its optimum
+_NEARBY = 10
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
 
@@ -346,11 +348,13 @@ class Refitter:
         """{index: Refitted} of fits that began: the best goes to its end, others as far as they may come near it."""
         results = {i: Refitted(None, None, why) for i, (fit, why) in begins.items() if fit is None}
         begun = {i: fit for i, (fit, _) in begins.items() if fit is not None}
-        for i in sorted(begun, key=lambda i: begun[i].objective):
-            enough = self._enough(results.values())
-            results[i] = (Refitted(nearby(self.problem, enough, begun[i]), None, "") if np.isfinite(enough) else
-                          finished(self.problem, self.null, enough, self.rules, begun[i]))
-        return results
+        if not begun:
+            return results
+        best, *others = sorted(begun, key=lambda i: begun[i].objective)
+        results[best] = finished(self.problem, self.null, np.inf, self.rules, begun[best])
+        go_on = partial(advanced, self.problem, self._enough(results.values()), iterations=_NEARBY)
+        ended = self.fan_out(go_on, [begun[i] for i in others])
+        return results | {i: Refitted(fit, None, "") for i, fit in zip(others, ended, strict=True)}
 
     def _raced(self, fits):
         """The best few {index: Fit} of those that have begun, best first: the better half goes on, again and again.
