@@ -14,6 +14,7 @@ from pipeline.physics.contact.static_preload import condense, contact_law, solve
 from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
+from pipeline.physics.numerics.sparse_blocks import on_diagonal
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import build, moduli_left, softened
 from pipeline.systems.disc_brake_bracket import refuse_unfit_bracket
@@ -177,7 +178,7 @@ def _preload(brake, law, settings, context):
 
 def _condensed(brake, solver):
     """(compliance (c, c) m/N of the contacts, their closure (c,) m per Pa of the pistons) of a brake not in contact."""
-    stiffness = scipy.sparse.block_diag([body.matrices()[0] for body in brake.bodies], format="csr")
+    stiffness = on_diagonal([body.matrices()[0] for body in brake.bodies])
     joints = brake.joints.rows.matrix
     stiffness = stiffness + joints.T @ scipy.sparse.diags(brake.joints.stiffness) @ joints
     sizes = np.cumsum([0, *(3 * len(b.mesh.node) for b in brake.bodies)])

@@ -7,6 +7,7 @@ import scipy
 
 from pipeline.physics.fem.supports import free_freedoms
 from pipeline.physics.fem.ties import Tie
+from pipeline.physics.numerics.sparse_blocks import on_diagonal
 from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.reduction.body import ElasticBody, rotation
 from pipeline.physics.reduction.load_patterns import load_patterns
@@ -101,7 +102,7 @@ def force_patterns(system, orders):
     contacts = load_patterns(system.contact_position, system.contact_area, system.contact_body, orders)
     blocks = [contacts if field.startswith("contact_") else scipy.sparse.identity(int(getattr(system, field).rows))
               for field in row_fields(system)[:-1]]
-    return scipy.sparse.block_diag(blocks, format="csr")
+    return on_diagonal(blocks)
 
 
 def body_rows(incidence, body, nodes):
@@ -121,7 +122,7 @@ def full_model(system, solver):
     free = [free_freedoms(len(b.node), b.supported) for b in bodies]
     parts = zip(*(full_matrices(*each, solver) for each in zip(bodies, free, strict=True)), strict=True)
     names, sizes = ("mass", "stiffness", "gyroscopic", "centrifugal"), [len(each) for each in free]
-    matrices = {name: scipy.sparse.block_diag(part, format="csr") for name, part in zip(names, parts, strict=True)}
+    matrices = {name: on_diagonal(part) for name, part in zip(names, parts, strict=True)}
     fields, name = row_fields(system), INPUTS[type(system)]
     rows = [scipy.sparse.hstack([body_rows(getattr(system, field), k, len(b.node))[:, f]
                                  for k, (b, f) in enumerate(zip(bodies, free, strict=True))], format="csr")
@@ -149,7 +150,7 @@ def with_fluid(model, structure):
     """A sparse SlidingModel with the fluid of the lines, masses on which the columns in the bores end; ``structure``:
     a product Structure, or another with its fields of the fluid."""
     beside, count = {"mass": structure.line_inertia, "damping": structure.line_drag}, len(structure.line_inertia)
-    matrices = {name: scipy.sparse.block_diag([getattr(model, name), np.diag(beside.get(name, np.zeros(count)))], "csr")
+    matrices = {name: on_diagonal((getattr(model, name), np.diag(beside.get(name, np.zeros(count)))))
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
     contacts = replace(model.contacts, **{name: _widened(getattr(model.contacts, name), count)
                                           for name in ("normal", "tangent", "lateral")})

@@ -7,6 +7,7 @@ import numpy as np
 import scipy
 
 from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.numerics.sparse_blocks import on_diagonal
 from pipeline.physics.reduction.body import ElasticBody
 from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
 from pipeline.systems.fem_bodies import full_matrices, with_fluid
@@ -44,7 +45,7 @@ def unreduced(brake, matrices, speed, fluid_loss=0.0):
     """
     sizes = [len(_free(solid)) for solid in brake.bodies]
     parts = zip(*(matrices.of(*each) for each in zip(brake.names, brake.bodies, strict=True)), strict=True)
-    blocks = {name: scipy.sparse.block_diag(part, format="csr") for name, part in zip(_MATRICES, parts, strict=True)}
+    blocks = {name: on_diagonal(part) for name, part in zip(_MATRICES, parts, strict=True)}
     free = np.concatenate([first + _free(solid) for first, solid in zip(
         np.cumsum([0, *(3 * len(solid.mesh.node) for solid in brake.bodies)]), brake.bodies, strict=False)])
     joints, contacts = brake.joints, brake.contacts

@@ -23,7 +23,7 @@ from pipeline.physics.numerics.dense_factor import product
 _STARTS = 2
 #: rounds of the search, and those after which what is still no mode has more vectors of its own added
 _ROUNDS, _WIDENED = 30, 15
-#: part of a vector that is new to the search space, below which it adds nothing
+#: part of vectors that is new to the search space, below which it adds nothing
 _NEW = 1e-8
 #: change of a root, as a share of it, that ends the search where the residual is small enough
 _SETTLED = 1e-7
@@ -50,13 +50,11 @@ def followed_roots(matrices: tuple, solve: Callable, sought: np.ndarray, forces:
     another model, ``forces`` (n, g) that move the system like their modes, ``motion`` (r, g) of these along the sparse
     ``rows`` (r, n); ``tolerance`` of the residuals.
     """
-    space = _Space(matrices, rows)
-    for root, force in zip(sought, forces.T, strict=True):
-        x = solve(force)
-        for _ in range(_STARTS):
-            space.add(x)
-            x = solve(_slope(matrices, root, x / np.linalg.norm(x)))
+    space, x = _Space(matrices, rows), solve(forces)
+    for _ in range(_STARTS):
         space.add(x)
+        x = solve(_slope(matrices, sought, x / np.linalg.norm(x, axis=0)))
+    space.add(x)
     before = np.full(len(sought), np.inf, complex)
     for turn in range(_ROUNDS):
         root, weights, likeness = _most_like(space, sought, motion)
@@ -64,11 +62,10 @@ def followed_roots(matrices: tuple, solve: Callable, sought: np.ndarray, forces:
         done = (residual <= tolerance) & (abs(root - before) <= _SETTLED * abs(root)) & (likeness >= ALIKE)
         if done.all():
             break
-        before, vector = root, space.basis @ weights
-        for k in np.flatnonzero(~done):
-            space.add(solve(off[:, k]))
-            if turn >= _WIDENED:
-                space.add(solve(_slope(matrices, sought[k], vector[:, k])))
+        before, left = root, off[:, ~done]
+        if turn >= _WIDENED:
+            left = np.hstack((left, _slope(matrices, sought[~done], space.basis @ weights[:, ~done])))
+        space.add(solve(left))
     vector = space.basis[:, :len(weights)] @ weights
     return Followed(np.where(done, root, complex(np.nan, np.nan)), vector, residual, likeness)
 
@@ -77,33 +74,60 @@ class _Space:
     """Orthonormal vectors (n, m), what ``rows`` and M, C and K make of them, and the projections (m, m) of these."""
 
     def __init__(self, matrices, rows):
-        self.basis, self.seen = (np.empty((count, 0), complex) for count in (rows.shape[1], rows.shape[0]))
-        self._matrices, self._rows, self._moved = matrices, rows, [self.basis] * len(matrices)
+        self._matrices, self._rows, self._count = matrices, rows, 0
+        self._vectors, *self._images, self._seen = (np.empty((of.shape[0], 0), complex) for of in
+                                                    (matrices[0], *matrices, rows))
         self.small = [np.empty((0, 0), complex)] * len(matrices)
 
-    def add(self, vector):
-        """Add what is new in ``vector`` (n,)."""
-        size = np.linalg.norm(vector)
-        for _ in range(2):
-            vector = vector - self.basis @ (vector.conj() @ self.basis).conj()
-        new = np.linalg.norm(vector)
-        if not new > _NEW * size:
-            return
-        vector = vector / new
+    @property
+    def basis(self):
+        """(n, m)."""
+        return self._vectors[:, :self._count]
+
+    @property
+    def seen(self):
+        """What the rows make of the vectors (r, m)."""
+        return self._seen[:, :self._count]
+
+    def add(self, vectors):
+        """Add what is new in ``vectors`` (n, g), none of them zero."""
+        new, before = self._new(vectors), self.basis
+        m, self._count = self._count, self._count + new.shape[1]
+        self._vectors, self._seen = _filled(self._vectors, m, new), _filled(self._seen, m, self._rows @ new)
         for k, matrix in enumerate(self._matrices):
-            column = product(matrix, vector)
-            beside = (column.conj() @ self.basis).conj()[:, None]
-            below = (vector.conj() @ self._moved[k])[None]
-            self.small[k] = np.block([[self.small[k], beside], [below, np.vdot(vector, column)[None, None]]])
-            self._moved[k] = np.column_stack((self._moved[k], column))
-        self.basis = np.column_stack((self.basis, vector))
-        self.seen = np.column_stack((self.seen, self._rows @ vector))
+            image = product(matrix, new)
+            below = _within(new, self._images[k][:, :m])
+            self.small[k] = np.block([[self.small[k], _within(before, image)], [below, _within(new, image)]])
+            self._images[k] = _filled(self._images[k], m, image)
+
+    def _new(self, vectors):
+        """Orthonormal (n, h) for what in ``vectors`` (n, g) is new, by more than rounding."""
+        for _ in range(2):
+            vectors = vectors / np.linalg.norm(vectors, axis=0)
+            direction, size, _ = np.linalg.svd(vectors - self.basis @ _within(self.basis, vectors), full_matrices=False)
+            vectors = direction[:, size > _NEW]
+        return vectors
 
     def residuals(self, root, weights):
         """(T(s) x (n, g), its size over that of K x (g,)) of roots (g,) and vectors with ``weights`` (m, g)."""
-        inertia, drag, forces = (moved @ weights for moved in self._moved)
+        inertia, drag, forces = (image[:, :self._count] @ weights for image in self._images)
         off = root * (root * inertia + drag) + forces
         return off, np.linalg.norm(off, axis=0) / np.linalg.norm(forces, axis=0)
+
+
+def _within(vectors, others):
+    """V^H W (m, g)."""
+    return (others.conj().T @ vectors).conj().T
+
+
+def _filled(columns, count, new):
+    """Room for columns (n, ...), of which ``count`` are in use, with ``new`` (n, g) beside these."""
+    room = count + new.shape[1]
+    if room > columns.shape[1]:
+        larger = np.empty((len(columns), max(room, 2 * count)), complex, order="F")
+        larger[:, :count], columns = columns[:, :count], larger
+    columns[:, count:room] = new
+    return columns
 
 
 def _most_like(space, sought, motion):

@@ -5,8 +5,8 @@ import scipy
 
 
 def product(matrix, x):
-    """``matrix`` @ ``x`` of a vector (n,); a real matrix, dense or sparse, is not copied into complex numbers; of a
-    diagonal one ``matrix`` (n,) is the diagonal."""
+    """``matrix`` @ ``x`` of a vector (n,), or of several (n, g); a real matrix, dense or sparse, is not copied into
+    complex numbers; of a diagonal one ``matrix`` (n,), which takes one vector, is the diagonal."""
     if matrix.ndim == 1:
         return matrix * x
     if np.iscomplexobj(x) and not np.iscomplexobj(matrix):

@@ -138,17 +138,37 @@ def _lu(columns, order, threshold):
 
 
 class _Pardiso(_Factor):
+    """Rows of unsymmetric matrices are matched with columns of large entries first, which takes three times as long as
+    the order of columns; a factor in single precision, whose solutions an iteration improves, does without if it can.
+    """
+
     def __init__(self, matrix, symmetric, single):
-        complex_, self.dtype, self._symmetric = np.iscomplexobj(matrix), _kind(matrix, single), symmetric
+        self.dtype, self._symmetric = _kind(matrix, single), symmetric
         stored = (_upper_triangle(matrix) if symmetric else matrix).astype(self.dtype, copy=False)
-        self._call = _PardisoCall(stored, _MATRIX_TYPE[complex_, symmetric])
-        weakref.finalize(self, self._call, _RELEASE)
+        if symmetric or not single or not self._does_unmatched(matrix, stored):
+            self._make(stored, matching=not symmetric)
+
+    def _does_unmatched(self, matrix, stored):
+        try:
+            release = self._make(stored, matching=False)
+        except ConvergenceError:
+            return False
+        done = _miss(matrix, self) < 1
+        if not done:
+            release()
+        return done
+
+    def _make(self, stored, matching):
+        """Factorise; what releases it."""
+        self._call = _PardisoCall(stored, _MATRIX_TYPE[self.dtype.kind == "c", self._symmetric], matching)
+        release = weakref.finalize(self, self._call, _RELEASE)
         self._call(_ANALYSE)
         peak, permanent, factor = (1024 * int(self._call.parameter[k]) for k in (_PEAK, _PERMANENT, _FACTOR))
-        refuse_beyond_memory(max(peak, permanent + factor), f"a factor of {matrix.shape[0]} degrees of freedom")
+        refuse_beyond_memory(max(peak, permanent + factor), f"a factor of {stored.shape[0]} degrees of freedom")
         self._call(_FACTORISE)
-        if symmetric and self.dtype == np.float64:
+        if self._symmetric and self.dtype == np.float64:
             self.negative = int(self._call.parameter[22])
+        return release
 
     def of_another(self, matrix):
         """The order of columns, which takes as long as half of a factor, is that of the matrix before."""
@@ -183,7 +203,7 @@ def _upper_triangle(matrix):
 class _PardisoCall:
     """One handle of PARDISO with the matrix it needs at every call."""
 
-    def __init__(self, matrix, kind):
+    def __init__(self, matrix, kind, matching):
         self.matrix, self.kind = matrix, ctypes.c_int32(kind)
         self.handle = np.zeros(64, np.int64)
         self.rows = matrix.indptr.astype(np.int32) + 1
@@ -192,7 +212,7 @@ class _PardisoCall:
         self.parameter[[0, 1, 9, 20]] = 1, 2, 8, 1     # own values, nested dissection, pivot 1e-8, 2 x 2 pivots
         self.parameter[27] = matrix.dtype in (np.float32, np.complex64)
         if kind in (11, 13):
-            self.parameter[[9, 10, 12]] = 13, 1, 1      # pivot 1e-13, scaling, matching
+            self.parameter[[9, 10, 12]] = 13, matching, matching      # pivot 1e-13, scaling
         # parameter[7] = 0: no iterative refinement unless pivots had to be perturbed
 
     def __call__(self, phase, rhs=None):

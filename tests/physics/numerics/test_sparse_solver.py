@@ -51,6 +51,14 @@ def test_single_precision_holds_its_digits_and_no_more(solver):
         assert 1e-10 < missed < 1e-4 and factor.negative is None
 
 
+@pytest.mark.parametrize("turn", [0, 7], ids=["by its diagonal", "by matched rows"])
+def test_single_precision_solves_unsymmetric_matrices_whatever_their_diagonal(solver, turn):
+    matrix = (laplacian() + sp.random(512, 512, 0.01, random_state=2)).tocsr()[np.roll(np.arange(512), turn)]
+    rhs = np.random.default_rng(1).standard_normal(512)
+    missed = matrix @ factorise(matrix, solver, symmetric=False, single=True).solve(rhs) - rhs
+    assert np.linalg.norm(missed) < 1e-2 * np.linalg.norm(rhs)
+
+
 def test_saddle_point_with_empty_diagonal(solver):
     matrix = sp.bmat([[sp.identity(3), np.ones((3, 1))], [np.ones((1, 3)), None]])
     rhs = np.arange(4.0)
