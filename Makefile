@@ -26,7 +26,7 @@ FAST  := -m pytest -q -rs -m "not slow" -n auto --dist loadfile
 IGNORED = $(if $(filter tests,$(TESTS)),--ignore=tests/blind_trial/generators --ignore=tests/studies)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz fuzz_diagnosis trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz fuzz_diagnosis trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_draws study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -157,6 +157,9 @@ study_several: $(TESTED)  ## joints with one to three laws at once, by simulatio
 
 study_disturbed: $(TESTED)  ## false alarms where noise, clocks, samples and joints are not as assumed; resumes case by case
 	$(BIN)/python -m tests.studies.disturbed $(ARGS)
+
+study_draws: $(TESTED)  ## growing roots of 200 draws of the default brake, which has been run, beside all roots by LAPACK
+	$(BIN)/python -m tests.studies.draws $(ARGS)
 
 study_kills: $(TESTED)  ## 324 deaths of runs and of Dask workers at random moments, over nine chains; adds to data/studies/kills.csv
 	$(BIN)/python -m tests.studies.kills $(ARGS)
