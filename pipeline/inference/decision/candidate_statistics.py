@@ -7,7 +7,7 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics
 from pipeline.inference.decision.held_out import Gain, gain, held_out_residuals, judged
 from pipeline.inference.fitting.effective_sample_size import coherent_energy, doubt, effective_share
-from pipeline.inference.fitting.fit_state import linearised, orthogonal, whitened
+from pipeline.inference.fitting.fit_state import linearised, nominal_p, orthogonal, whitened
 from pipeline.inference.fitting.parameter_drift import agreement
 from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.varying_values import followed
@@ -71,7 +71,7 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
         varying + beside[0], gained and gained.error,
-        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered, _nominal_p(fit, null),
+        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered, nominal_p(fit, null.hypothesis),
         remarks + beside[1])
 
 
@@ -86,12 +86,6 @@ def _beyond(fit, candidate):
             unit = "" if parameter.unit == "1" else f" {parameter.unit}"
             whose = f"its {short_name(parameter)}" if parameter.name in own else f"{parameter.name}, beside it,"
             yield f"{whose} of {value:.3g}{unit} is {side} {end:.3g}{unit}, where it is another law"
-
-
-def _nominal_p(fit, null):
-    """p-value of the nominal values that a Fit asks for, under their priors: those of all runs, without effects."""
-    nominal = [k for k, p in enumerate(null.hypothesis.parameters) if not p.run and p.null is None and not p.discrete]
-    return float(scipy.stats.chi2.sf(np.sum(fit.latent[nominal]**2), len(nominal))) if nominal else 1.0
 
 
 def _shaped(fit, null, candidate):

@@ -121,7 +121,8 @@ def _helps(candidate, rules):
     beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
     return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
             and candidate.from_null >= rules.from_null and not candidate.forbidden and not candidate.doubts
-            and candidate.nominal_p >= rules.nominal_p)
+            and candidate.nominal_p >= rules.nominal_p
+            and not (candidate.powered and (candidate.growth or 0.0) > rules.growth))
 
 
 def _family(first, significant, rules):

@@ -20,6 +20,8 @@ from pipeline.inference.search.score_screen import (
 
 #: discrete values of a candidate at which fits begin
 _ALTERNATIVES = 2
+#: latent value of a large effect, without which no nominal values near those given predict anything like the data
+_LARGE = 2.0
 #: shapes from which on a candidate begins in others than the screen has found
 _SEVERAL = 3
 
@@ -28,7 +30,8 @@ _SEVERAL = 3
 def begun_beside(problem, null, anchor, ahead, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
 
-    Where that is not the null, the candidate begins at the values of the null as well. One of few choices, as of a
+    Where that is not the null, the candidate begins at the values of the null as well, unless these are as far out as
+    any may be, and in a size as large as is likely at all. One of few choices, as of a
     sign, without which the null is far off, begins at the stated values alone: those of the null, and of all its fits
     to less of the runs, answer to what the wrong choice asks for.
     """
@@ -39,13 +42,14 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
         if begin[0] is not None and begin[0].objective < null.objective:
             return begin
     offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
+    offsets = (*offsets, _LARGE) if null.at_limits else offsets
     starts = _starts(anchor.latent, [
         screened_start, least(candidate, screened_start),
         *(np.full(len(candidate.parameters), offset) for offset in offsets), *_other_shapes(candidate, screened_start)])
     if not (anchor.far or null.unordered):      # else what is nearest changes nothing, and leads nowhere
         starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
     discrete = _alternative_starts(problem, null, candidate, anchor.latent)
-    at_null = [] if anchor is null or null.unordered else [screened_start]
+    at_null = [] if anchor is null or null.unordered or null.at_limits else [screened_start]
     at_null = _starts(null.latent, at_null) + tone_starts.starts(problem, null, candidate)
     return tried(problem, null, candidate, discrete + starts + at_null,
                   [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)

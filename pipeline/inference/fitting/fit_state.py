@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError, sentence_of
 from pipeline.inference.fitting.effective_sample_size import tempering
@@ -110,6 +111,11 @@ class Fit:
                      for k, (p, u) in enumerate(zip(self.hypothesis.parameters, self.latent, strict=True))
                      if abs(u) > beyond and (among is None or k in among))
 
+    @property
+    def at_limits(self):
+        """Whether a value is as far out as any may be."""
+        return bool((abs(self.latent) >= LATENT_LIMIT).any())
+
     def at_noise(self, factor):
         """The same values against noise ``factor`` times as large."""
         return replace(self, noises=tuple(noise.scaled(factor) for noise in self.noises),
@@ -146,6 +152,13 @@ class Fit:
         """
         low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
         return {name: 0.5 * abs(high[name] - low[name]) for name in low}
+
+
+def nominal_p(fit, nominal):
+    """p-value of the values of all runs, without effects, that a Fit asks for, under their priors; ``nominal``: the
+    nominal hypothesis, whose parameters come first."""
+    shared = [k for k, p in enumerate(nominal.parameters) if not p.run and p.null is None and not p.discrete]
+    return float(scipy.stats.chi2.sf(np.sum(fit.latent[shared]**2), len(shared))) if shared else 1.0
 
 
 def whitened(problem, noises, hypothesis, latent, runs):

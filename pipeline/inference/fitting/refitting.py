@@ -12,7 +12,7 @@ from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, directions_like, tried
 from pipeline.inference.fitting.calibration import Calibration, ahead_of
-from pipeline.inference.fitting.fit_state import Fit, linearised
+from pipeline.inference.fitting.fit_state import Fit, linearised, nominal_p
 from pipeline.inference.fitting.least_squares import again, beside
 from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest
 from pipeline.inference.fitting.step_error import refined
@@ -28,6 +28,8 @@ _ROUNDS = 4
 _OVERTAKEN = 0.5
 #: iterations of a fit that begins near its optimum
 _NEARBY = 10
+#: share of the noise power beyond it within which a nominal model nearly reaches the noise
+_NEARLY = 1.0
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
 
@@ -181,6 +183,12 @@ class Refitter:
             return beside(self.problem, state, pulled) if pulled.any() else state
         except BrakechainError:
             return self.null
+
+    @cached_property
+    def _unlikely_at_noise(self):
+        """Whether the null nearly reaches the noise by values that are unlikely together."""
+        return (self.null.reaches_noise(_NEARLY)
+                and nominal_p(self.null, self.null.hypothesis) < self.rules.decision.nominal_p)
 
     @cached_property
     def ahead(self):
@@ -380,8 +388,10 @@ class Refitter:
         return refitted.fit is None or refitted.fit.objective > self._near(best)
 
     def _near(self, best):
-        """The objective to which others must come beside the Fit ``best``."""
-        return best.objective + self.rules.refit.within_reach / best.weights.max()
+        """The objective to which others must come beside the Fit ``best``; the valley from a null of unlikely values at
+        the noise to those of a candidate is bent, and its slope tells little: there that of the null will do."""
+        near = best.objective + self.rules.refit.within_reach / best.weights.max()
+        return max(near, self.null.objective) if self._unlikely_at_noise else near
 
 
 def _misled(null, rules):

@@ -10,7 +10,6 @@ from pipeline.inference.decision import candidate_statistics as candidate_statis
 from pipeline.inference.decision.candidate_statistics import (
     _beyond,
     _immaterial,
-    _nominal_p,
     _one_factor,
     candidate_statistics,
     held_out_gains,
@@ -18,6 +17,7 @@ from pipeline.inference.decision.candidate_statistics import (
     unexplained,
 )
 from pipeline.inference.decision.evidence import evidence
+from pipeline.inference.fitting.fit_state import nominal_p
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.parameter_drift import drift
 from pipeline.inference.fitting.varying_values import Following
@@ -219,7 +219,7 @@ def test_nominal_values_count_together_under_their_priors():
     size = Parameter("force", "N", 0.1, HalfNormal(1.0), null=0.0)
     hypothesis = replace(null.hypothesis, parameters=(*null.hypothesis.parameters, third, size))
     asked = replace(null, hypothesis=hypothesis, latent=np.array([3.0, 9.0, 9.0]))
-    assert _nominal_p(asked, asked) == pytest.approx(stats.chi2.sf(9.0, 1))
+    assert nominal_p(asked, hypothesis) == pytest.approx(stats.chi2.sf(9.0, 1))
 
 
 @pytest.mark.parametrize("ratio, told", [

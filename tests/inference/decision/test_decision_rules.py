@@ -150,7 +150,7 @@ def test_what_helps_beyond_chance_leads_where_nothing_is_named(broken):
 @pytest.mark.parametrize("broken", [{"takes": 0.04}, {"unfitted_errors": 2.9}, {"left_out_gain": -1.0},
                                     {"forbidden": "its friction is negative"}, {"p_value": 0.02},
                                     {"doubts": ("its prior excludes the data",)}, {"nominal_p": 1e-5},
-                                    {"posterior": 6e-27}])
+                                    {"posterior": 6e-27}, {"growth": 65.0}])
 def test_nothing_leads_that_does_not_help(broken):
     partly = replace(GOOD, **{"takes": 0.81, "stays": 0.19, "unexplained": 0.19, **broken})
     told = decide(FOUR, [partly], DecisionRules())
