@@ -30,6 +30,8 @@ _OVERTAKEN = 0.5
 _NEARBY = 10
 #: share of the noise power beyond it within which a nominal model nearly reaches the noise
 _NEARLY = 1.0
+#: standard deviations of its prior beyond which a value is one of those that are unlikely together
+_FAR_OUT = 2.0
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
 
@@ -103,10 +105,8 @@ def refit_from(screening, catalogue, results, settings, fan_out):
 
 @dataclass(frozen=True)
 class Refitter:
-    """Fits candidates of a ``catalogue`` (Hypothesis, ...) beside the Fit ``null`` of the nominal hypothesis.
-
-    ``settings``: those of ``procedure``.
-    """
+    """Fits candidates of a ``catalogue`` (Hypothesis, ...) beside the Fit ``null`` of the nominal hypothesis, by the
+    ``settings`` of ``procedure``."""
 
     problem: Problem
     null: Fit
@@ -173,22 +173,23 @@ class Refitter:
     @cached_property
     def anchor(self):
         """The Fit beside which candidates begin: the null, or, where that misleads, what it is with those values as
-        they were that its priors exclude."""
-        if not _misled(self.null, self.rules.calibration):
-            return self.null
-        pulled, nominal = abs(self.null.latent) > self.rules.calibration.excluded, self.problem.nominal
-        latent = np.where(pulled | self.null.unordered, nominal.nominal, self.null.latent)
+        they were that its priors exclude, or that are unlikely together."""
+        null, nominal, unlikely = self.null, self.problem.nominal, self._unlikely_at_noise
+        if not (unlikely or _misled(null, self.rules.calibration)):
+            return null
+        pulled = abs(null.latent) > (_FAR_OUT if unlikely else self.rules.calibration.excluded)
         try:
-            state = linearised(self.problem, self.null.noises, nominal, latent, self.null.runs)
+            state = linearised(self.problem, null.noises, nominal,
+                               np.where(pulled | null.unordered, nominal.nominal, null.latent), null.runs)
             return beside(self.problem, state, pulled) if pulled.any() else state
         except BrakechainError:
-            return self.null
+            return null
 
     @cached_property
     def _unlikely_at_noise(self):
         """Whether the null nearly reaches the noise by values that are unlikely together."""
-        return (self.null.reaches_noise(_NEARLY)
-                and nominal_p(self.null, self.null.hypothesis) < self.rules.decision.nominal_p)
+        unlikely = nominal_p(self.null, self.null.hypothesis) < self.rules.decision.nominal_p
+        return unlikely and self.null.reaches_noise(_NEARLY)
 
     @cached_property
     def ahead(self):

@@ -1,8 +1,11 @@
 """Begins of candidates: beside the null they change next to nothing, or are as the screen found them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from pipeline.inference.fitting import begins
 from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, directions_like
 from pipeline.inference.fitting.calibration import ahead_of, calibrate
 from pipeline.inference.fitting.fit_state import linearised
@@ -58,3 +61,16 @@ def test_a_sign_begins_at_the_stated_values_where_the_null_is_misled():
     ahead = ahead_of(problem, fit)
     begin, _ = begun_beside(problem, fit, fit, ahead, (), (resonance.SIGN, np.zeros(1)))
     assert begin.chi_square.sum() < 1.2 * begin.counts.sum() and begin.values["mass"] == pytest.approx(1.15, rel=0.01)
+
+
+@pytest.mark.parametrize("out", [0.0, LATENT_LIMIT])
+def test_values_as_far_out_as_any_may_be_begin_nothing(null, out, monkeypatch):
+    """There a candidate begins beside the given values alone, in a large size as well."""
+    problem, fit = null
+    anchor = linearised(problem, fit.noises, problem.nominal, problem.nominal.nominal, fit.runs)
+    away, seen = replace(fit, latent=np.full(len(fit.latent), out)), []
+    monkeypatch.setattr(begins, "begun", lambda *asked: seen.extend(asked[3]))
+    begun_beside(problem, away, anchor, (), (-1.0, 1.0), (resonance.CATALOGUE[0], np.zeros(1)))
+    size = len(fit.latent)
+    assert any((start[:size] == out).all() for start in seen) == (out == 0.0)
+    assert (max(start[size] for start in seen) == 2.0) == (out > 0)

@@ -163,3 +163,15 @@ def test_where_the_null_is_at_odds_with_its_priors_candidates_begin_with_those_v
     anchor = replace(found, null=away).anchor
     assert anchor.latent[0] == pytest.approx(found.problem.nominal.nominal[0])
     assert found.anchor is found.null
+
+
+def test_beside_a_null_at_the_noise_by_unlikely_values_candidates_begin_at_those_given_and_go_on(found):
+    """Other values than were given can take over what an effect does, to the noise; from there its valley is bent."""
+    latent = np.array(found.null.latent)
+    latent[0] = 4.5
+    quiet = tuple(np.zeros(len(r)) for r in found.null.residuals)
+    unlikely = replace(found, null=replace(found.null, latent=latent, residuals=quiet))
+    likely = replace(found, null=replace(found.null, latent=0 * latent, residuals=quiet))
+    assert unlikely.anchor.latent[0] == pytest.approx(found.problem.nominal.nominal[0])
+    assert likely.anchor is likely.null
+    assert unlikely._near(likely.null) == unlikely.null.objective > likely._near(likely.null)
