@@ -84,6 +84,13 @@ def test_units_of_samples_follow_what_is_measured(measures, unit, value, name):
     np.testing.assert_allclose(values, [value, -2 * value], rtol=1e-15)
 
 
+def test_levels_are_effective_values():
+    """94 dB re 20 uPa are 1.0024 Pa (ISO 1683); 20 dB more are ten times the pressure."""
+    values, name = in_si(np.array([93.9794, 113.9794, 0.0]), "dB re 20 uPa", "x", "sound pressure")
+    assert name == "Pa"
+    np.testing.assert_allclose(values, [1.0, 10.0, 20e-6], rtol=1e-6)
+
+
 @pytest.mark.parametrize("measures, unit", [
     ("acceleration", "V"), ("velocity", "g"), ("force", "mm"), ("angle", "mm"), ("speed", "Hz"), ("torque", "N")])
 def test_a_unit_that_contradicts_the_quantity_is_one_error(measures, unit):
