@@ -36,8 +36,9 @@ def fix(environment=os.environ, path=sys.path):
     """
     environment.update(ONE_THREAD | SAFE | FREED_MEMORY)
     with suppress(AttributeError, OSError, TypeError):      # the C library of this system may have no such function
+        mallopt = ctypes.CDLL(None).mallopt
         for (_, number), size in _MALLOC.items():
-            ctypes.CDLL(None).mallopt(number, size)
+            mallopt(number, size)
     here = Path.cwd()
     if here != _ROOT:
         path[:] = [folder for folder in path if folder and Path(folder).absolute() != here]

@@ -2,7 +2,7 @@
 
 Draws of a seed that no case uses are solved twice at every pressure of the reduced model of a run, at the middle speed:
 as the stage probability solves them, and for all eigenvalues of the companion matrix. Prints how often both have the
-same growing modes, how far their growth rates lie apart, and what share of the draws squeals by each.
+same growing modes, how far their growth rates lie apart, and what share of the draws has one by each.
 """
 
 import argparse
@@ -87,15 +87,15 @@ def told(found):
     """Sentences on [pressure][draw] of Beside."""
     flat = [each for of_case in found for each in of_case]
     apart = np.concatenate([made.real - exact.real for made, exact in (each.pairs for each in flat)])
-    squeals = np.array([[len(getattr(each, kind)) > 0 for each in of_case] for kind in ("made", "exact")
+    growing = np.array([[len(getattr(each, kind)) > 0 for each in of_case] for kind in ("made", "exact")
                         for of_case in found]).reshape(2, len(found), -1).any(axis=1)
     worst = f"{abs(apart).max():.2g} 1/s at most" if len(apart) else "nothing to compare"
     shares = (f"{kind.mean():.3f} ({', '.join(f'{end:.3f}' for end in rate_interval(kind.sum(), len(kind)))})"
-              for kind in squeals)
+              for kind in growing)
     return (f"the same growing modes: {sum(each.same for each in flat)} of {len(flat)} sets,"
             f" {sum(len(each.exact) for each in flat)} roots by LAPACK",
             f"growth rates differ by {worst}",
-            "share of the draws that squeals: {} as the stage solves them, {} by LAPACK".format(*shares))
+            "share of the draws with a growing mode: {} as the stage solves them, {} by LAPACK".format(*shares))
 
 
 def main():

@@ -31,9 +31,9 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
 
     Where that is not the null, the candidate begins at the values of the null as well, unless these are as far out as
-    any may be, and in a size as large as is likely at all. One of few choices, as of a
-    sign, without which the null is far off, begins at the stated values alone: those of the null, and of all its fits
-    to less of the runs, answer to what the wrong choice asks for.
+    any may be: then in a large size instead. One of few choices, as of a sign, without which the null is far off,
+    begins at the stated values alone: those of the null, and of all its fits to less of the runs, answer to what the
+    wrong choice asks for.
     """
     candidate, screened_start = item
     if anchor.far and not null.unordered and any(p.discrete for p in candidate.parameters):

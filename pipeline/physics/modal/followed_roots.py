@@ -18,6 +18,7 @@ import scipy
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_pairs
 from pipeline.physics.modal.shape_matching import assurance
 from pipeline.physics.numerics.dense_factor import product
+from pipeline.physics.numerics.orthonormal import orthonormal_beside, within
 
 #: inverse iterations for each mode before the first search
 _STARTS = 2
@@ -91,33 +92,21 @@ class _Space:
 
     def add(self, vectors):
         """Add what is new in ``vectors`` (n, g), none of them zero."""
-        new, before = self._new(vectors), self.basis
-        m, self._count = self._count, self._count + new.shape[1]
+        before, m = self.basis, self._count
+        new = orthonormal_beside(before, vectors / np.linalg.norm(vectors, axis=0), _NEW)
+        self._count += new.shape[1]
         self._vectors, self._seen = _filled(self._vectors, m, new), _filled(self._seen, m, self._rows @ new)
         for k, matrix in enumerate(self._matrices):
             image = product(matrix, new)
-            below = _within(new, self._images[k][:, :m])
-            self.small[k] = np.block([[self.small[k], _within(before, image)], [below, _within(new, image)]])
+            below = within(new, self._images[k][:, :m])
+            self.small[k] = np.block([[self.small[k], within(before, image)], [below, within(new, image)]])
             self._images[k] = _filled(self._images[k], m, image)
-
-    def _new(self, vectors):
-        """Orthonormal (n, h) for what in ``vectors`` (n, g) is new, by more than rounding."""
-        for _ in range(2):
-            vectors = vectors / np.linalg.norm(vectors, axis=0)
-            direction, size, _ = np.linalg.svd(vectors - self.basis @ _within(self.basis, vectors), full_matrices=False)
-            vectors = direction[:, size > _NEW]
-        return vectors
 
     def residuals(self, root, weights):
         """(T(s) x (n, g), its size over that of K x (g,)) of roots (g,) and vectors with ``weights`` (m, g)."""
         inertia, drag, forces = (image[:, :self._count] @ weights for image in self._images)
         off = root * (root * inertia + drag) + forces
         return off, np.linalg.norm(off, axis=0) / np.linalg.norm(forces, axis=0)
-
-
-def _within(vectors, others):
-    """V^H W (m, g)."""
-    return (others.conj().T @ vectors).conj().T
 
 
 def _filled(columns, count, new):

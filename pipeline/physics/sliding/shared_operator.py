@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
+from pipeline.physics.numerics.orthonormal import orthonormal_beside, within
 from pipeline.physics.sliding.model import spread
 
 #: powers of s and W that the gyroscopic matrix stands with
@@ -115,23 +116,14 @@ class Subspace:
 
     def add(self, vectors):
         """What ``vectors`` (n, g), none of them zero, add to those that are there; there must be room for all."""
-        m, new = self._count, self._beside(np.asarray(vectors, complex))
+        m = self._count
+        new = orthonormal_beside(self._vectors[:, :m], np.asarray(vectors, complex), _ROUNDING)
         part, self._count = slice(m, m + new.shape[1]), m + new.shape[1]
         self._vectors[:, part], self._moved[:, part] = new, self._operator.rows @ new
         whole = self._vectors[:, :self._count]
         for term, small, image in zip(self._operator.terms, self._small, self._operator.products(new), strict=True):
-            small[:self._count, part] = _within(whole, image)
-            small[part, :m] = _within(whole[:, :m], _adjoint(term, new, image)).conj().T
-
-    def _beside(self, vectors):
-        """Orthonormal (n, h) for what is not rounding of the ``vectors``."""
-        before = self._vectors[:, :self._count]
-        for _ in range(2):
-            size = np.linalg.norm(vectors, axis=0)
-            vectors = vectors[:, size > _ROUNDING] / size[size > _ROUNDING]
-            vectors = vectors - before @ _within(before, vectors)
-        direction, size, _ = np.linalg.svd(vectors, full_matrices=False)
-        return direction[:, size > _ROUNDING]
+            small[:self._count, part] = within(whole, image)
+            small[part, :m] = within(whole[:, :m], _adjoint(term, new, image)).conj().T
 
     def matrices(self, point):
         """(M, C, K), each (m, m), at a SlidingPoint, projected on the vectors."""
@@ -155,11 +147,6 @@ def _times(matrix, vectors):
     if np.iscomplexobj(matrix):
         return matrix @ vectors
     return (matrix @ np.ascontiguousarray(vectors).view(float)).view(complex)
-
-
-def _within(whole, vectors):
-    """V^H x (m, g): the few ``vectors`` x (n, g) are made conjugate, not ``whole`` V (n, m)."""
-    return (vectors.conj().T @ whole).conj().T
 
 
 def _adjoint(term, vectors, image):
