@@ -50,7 +50,7 @@ class ComplexModes:
     squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal; lower ones groan or moan")
 
 
-@product(version=2)
+@product(version=3)
 class Convergence:
     """Unstable modes of one operating point beside those of a finer model, and what moved them."""
 
@@ -63,7 +63,7 @@ class Convergence:
     reduced_root: Array = quantity("1/s", "unstable", "the same in the reduced model", complex)
     refined_root: Array = quantity("1/s", "unstable", "the same in the finer model; that of the case where not found", complex)
     found: Array = count("unstable", "1 where the finer model has a mode that moves like it near its frequency")
-    held: Array = count("unstable", "1 where it moved by no more than the tolerances")
+    held: Array = count("unstable", "1 where its estimated error is within the tolerances")
     near_root: Array = quantity("1/s", "near", "roots of the reduced model that nearly grow and were followed too", complex)
     near_refined: Array = quantity("1/s", "near", "the same in the finer model; that of the reduced one where not found", complex)
     added: Array = count("", "modes among these that grow in the finer model, beyond neutral ones")
@@ -77,9 +77,10 @@ class Convergence:
     frequency_change: Array = quantity("1", "", "largest change of a frequency, as a share of it")
     growth_change: Array = quantity("1/s", "", "largest change of a growth rate")
     growth_share: Array = quantity("1", "", "largest change of a growth rate, as a share of it")
-    frequency_tolerance: Array = quantity("1", "", "largest change of a frequency that counts as converged")
-    growth_tolerance: Array = quantity("1", "", "largest change of a growth rate that does, as a share of it")
-    neutral: Array = quantity("1/s", "", "change of a growth rate that always does")
+    error_factor: Array = quantity("1", "", "estimated error of the case over its change by finer meshes, at second order")
+    frequency_tolerance: Array = quantity("1", "", "largest estimated error of a frequency that counts as converged")
+    growth_tolerance: Array = quantity("1", "", "largest estimated error of a growth rate that does, as a share of it")
+    neutral: Array = quantity("1/s", "", "error of a growth rate that always does")
     converged: Array = count("", "1 if everything is refined and all unstable modes stay within the tolerances")
 
 

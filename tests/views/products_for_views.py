@@ -343,7 +343,7 @@ def convergence(converged=True):
         cause_change=np.array([[3, 3], [-110 - 100j, 0]])[:, :len(moved)] if not converged else np.empty((0, 0)),
         freedoms=62442, refined_freedoms=146382, contacts=576, refined_contacts=1296, frequency_change=0.003,
         growth_change=50.5, growth_share=0.03, frequency_tolerance=0.005, growth_tolerance=0.1, neutral=10.0,
-        converged=int(converged))
+        error_factor=2.4, converged=int(converged))
 
 
 def limit_cycle(settled=True):

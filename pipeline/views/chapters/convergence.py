@@ -57,7 +57,9 @@ def statement(convergence):
                f" {percent(convergence.growth_tolerance)} or {quantity(convergence.neutral, '1/s')} of a growth rate")
     differences = list(_differences(convergence))
     if differences:
-        return f"Not converged within {allowed}: {'; '.join(differences)}.{_mover(convergence)}{_unjudged(convergence)}"
+        times = f"the error estimated as {number(convergence.error_factor, 2)} times the change by finer meshes"
+        return (f"Not converged within {allowed}, {times}: {'; '.join(differences)}.{_mover(convergence)}"
+                f"{_unjudged(convergence)}")
     on = "without the reduction" if list(convergence.refinement) == ["bases"] else "in the finer model"
     if not len(convergence.root):
         stay = f"no mode is unstable {on} either"
@@ -67,8 +69,19 @@ def statement(convergence):
                 f" {percent(convergence.growth_share, 2)} ({quantity(convergence.growth_change, '1/s', 2)})")
     if convergence.converged.item():
         where = f"{quantity(convergence.pressure, 'Pa', 3)} and {quantity(convergence.speed, 'rad/s')}"
-        return f"Converged at {where}, where it was tried: {stay}."
+        return f"Converged at {where}, where it was tried: {stay}.{_error(convergence)}"
     return f"{stay[0].upper()}{stay[1:]}.{_unjudged(convergence)}"
+
+
+def _error(convergence):
+    """What the changes by finer meshes say of the meshes of the case."""
+    if not len(convergence.root):
+        return ""
+    change = convergence.refined_root - convergence.root
+    growth = convergence.error_factor * abs(change.real)
+    frequency = convergence.error_factor * abs(change.imag) / convergence.root.imag
+    return (f" By extrapolation at second order, frequencies are within {percent(frequency.max(), 2)} and growth rates"
+            f" within {quantity(growth.max(), '1/s', 2)} of those on meshes refined without limit.")
 
 
 def _unjudged(convergence):

@@ -170,7 +170,8 @@ def _convergence(refined):
               for name, change in zip(refined.cause, refined.cause_change, strict=True)}
     return {"converged": bool(refined.converged.item()), "pressure": float(refined.pressure),
             "speed": float(refined.speed), "largest_frequency_change": float(refined.frequency_change),
-            "largest_growth_change": float(refined.growth_change), "refined": list(map(str, refined.refinement)),
+            "largest_growth_change": float(refined.growth_change), "error_factor": float(refined.error_factor),
+            "refined": list(map(str, refined.refinement)),
             "not_refined": dict(zip(map(str, refined.left_out), map(str, refined.left_out_reason), strict=True)),
             "degrees_of_freedom": [int(refined.freedoms), int(refined.refined_freedoms)],
             "contacts": [int(refined.contacts), int(refined.refined_contacts)], "modes": modes,

@@ -40,4 +40,4 @@ def convergence(**given):
         "near_refined": none, "added": 0, "moved_root": none, "cause": [], "cause_change": np.empty((0, 0), complex),
         "freedoms": 1, "refined_freedoms": 1, "contacts": 1, "refined_contacts": 1, "frequency_change": 0.0,
         "growth_change": 0.0, "growth_share": 0.0, "frequency_tolerance": 0.005, "growth_tolerance": 0.1,
-        "neutral": 1.0, "converged": 1, **given})
+        "error_factor": 2.4, "neutral": 1.0, "converged": 1, **given})

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.case_models.refinement.comparison import Comparison, Stated, Tolerances, causes
+from pipeline.case_models.refinement.comparison import Comparison, Stated, Tolerances, causes, error_factor
 
 LIMITS = Tolerances(0.005, 0.1, 10.0)
 ROOT, REDUCED = np.array([300 + 6e4j, 40 + 2e4j]), np.array([295 + 6.001e4j, 35 + 2.001e4j])
@@ -51,6 +51,21 @@ def test_a_mode_that_grows_by_no_more_than_what_is_neutral_may_decay():
 
 def test_a_reduction_that_moves_modes_too_far_is_not_held():
     assert not compared([-20 + 1e4j, 40 + 2e4j, 300 + 6e4j], bases=-60.0).held.any()
+
+
+@pytest.mark.parametrize("order, factor", [(2, 1.3), (2, 1.5), (4, 1.3)])
+def test_errors_are_those_of_a_law_of_second_order_and_never_less_than_of_a_higher_one(order, factor):
+    def root(size):
+        return 300 + 7 * size**order
+
+    error = error_factor(factor) * abs(root(1 / factor) - root(1.0))
+    assert error == pytest.approx(7) if order == 2 else error > 7
+
+
+def test_a_change_that_is_within_while_the_error_is_not_is_not_held():
+    change = np.array([-20.0, 0.0])
+    assert list(LIMITS.hold(ROOT, change)) == [True, True]
+    assert list(LIMITS.hold(ROOT, change, error_factor(1.3))) == [False, True]
 
 
 def test_a_mode_that_no_start_is_near_is_not_held():
