@@ -1,8 +1,8 @@
 """'make study_second_family SEED=1': rigs that truly switch, coarse samples, unknown starts, diagnosed and scored.
 
-A set has 30 effects, 15 controls, 10 laws that no catalogue holds and 5 faulty sensors. It is drawn from SEED alone;
-seeds from 103 on are for measures and are not solved before. One folder a case; what is there is not made or solved
-again.
+A set has 30 effects, 15 controls, 10 laws that no catalogue holds, 5 faulty sensors, and then 20 pairs of laws, half
+of them at one spring. It is drawn from SEED alone; seeds from 103 on are for measures and are not solved before. One
+folder a case; what is there is not made or solved again.
 """
 
 import argparse
@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pipeline.blind_trial.generators.switching import hidden, switching_files
 from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
 from pipeline.blind_trial.metrics.criteria import EMPTY, NAMING, VISIBLE, judged
 from pipeline.blind_trial.metrics.failure_reasons import why
@@ -23,6 +24,8 @@ from tests.studies.forced import ROOT, answered, shared_out, solved
 #: cases of each class; controls with one value far off count among the controls
 COUNTS = {"effect": 30, "control": 10, "wrong_value": 5, "foreign": 10, "sensor": 5}
 NOISES = (0.01, 0.05)
+#: pairs of laws, which follow the others; every other one at one spring
+PAIRS, _WHERE = 20, (switching_files.BESIDE, switching_files.APART)
 #: cases of a set from whose number on blocks are pulled instead of rigs, in the classes that a pulled block can make
 _PULLED = 49
 _TRIES = 12
@@ -42,7 +45,15 @@ def plans(seed):
         if system == "pulled_block":
             form = pulled[kind][int(random.integers(len(pulled[kind])))]
         plan.append(Draw(1000 * seed + number, system, kind, form, 0.0, noise))
-    return plan
+    return plan + _pairs(seed, len(plan))
+
+
+def _pairs(seed, before):
+    """[Draw] of the pairs, numbered on from those ``before``."""
+    random, listed = np.random.default_rng([seed, 61]), hidden.pairs()
+    order = random.permutation(len(listed))[:PAIRS]
+    return [Draw(1000 * seed + before + k + 1, "switching_rig", "pair", (*listed[chosen], _WHERE[k % 2]), 0.0,
+                 NOISES[int(random.integers(len(NOISES)))]) for k, chosen in enumerate(order)]
 
 
 def case(draw, folder):
@@ -87,8 +98,9 @@ def solve(folder, kept, only_made, draw):
 
 def described(draw, truth):
     """One line of a truth."""
-    hidden = ", ".join(f"{truth['form']} at {e['place']}" for e in truth["effects"])
-    return (f"{draw.seed} {truth['class']:<11} {hidden:<32} {truth['noise']:>4.0%} {truth['way']:<9}"
+    form = "" if truth["class"] == "pair" else truth["form"]
+    hides = ", ".join(f"{form or e['name']} at {e['place']}" for e in truth["effects"])
+    return (f"{draw.seed} {truth['class']:<11} {hides:<32} {truth['noise']:>4.0%} {truth['way']:<9}"
             f" {truth['bodies']} bodies, {truth['a_period']:.0f} a period, leaves {truth['left']:.0f}")
 
 
@@ -105,10 +117,18 @@ def table(results):
             ("foreign: not misnamed", [a["verdict"] not in NAMING for t, a, _ in scores if t["class"] == "foreign"]),
             ("foreign: unknown", of("right", "foreign")), ("sensors: channel and type", of("right", "sensor")),
             ("sensors: called so", of("called", "sensor")),
-            ("refused", [a["verdict"] == "refused" for _, a, _ in scores])]
+            *_pair_rows(scores), ("refused", [a["verdict"] == "refused" for _, a, _ in scores])]
     rows += [(f"effects at {level:.0%} noise", [s["right"] for t, _, s in scores
                                                if t["class"] == "effect" and t["noise"] == level]) for level in NOISES]
     return [line(name, rate(hits)) for name, hits in rows if hits]
+
+
+def _pair_rows(scores):
+    """[(what, [bool])] of the pairs among [(truth, answer, judgement)]."""
+    pairs = [(s["right"], len({e["place"] for e in t["effects"]}), a) for t, a, s in scores if t["class"] == "pair"]
+    return [("pairs at one spring", [right for right, places, _ in pairs if places == 1]),
+            ("pairs at two springs", [right for right, places, _ in pairs if places == 2]),
+            ("pairs: one named alone", [a["verdict"] == "missing" and len(a["effects"]) == 1 for *_, a in pairs])]
 
 
 def main():
@@ -116,13 +136,14 @@ def main():
     parser = argparse.ArgumentParser(prog="make study_second_family", description=__doc__)
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_second_family")
-    parser.add_argument("--only", type=int, nargs="*", help="numbers of the cases, 1 to 60; default all")
+    parser.add_argument("--only", type=int, nargs="*", help="numbers of the cases, from 1; pairs from 61; default all")
     parser.add_argument("--kept", type=int, default=8, help="candidates that are refitted")
     parser.add_argument("--make", action="store_true", help="make the cases, and do not solve them")
     parser.add_argument("--workers", type=int, default=2, help="processes")
     chosen = parser.parse_args()
     folder = chosen.folder / f"seed_{chosen.seed}"
-    wanted = [plans(chosen.seed)[k - 1] for k in chosen.only or range(1, sum(COUNTS.values()) + 1)]
+    every = plans(chosen.seed)
+    wanted = [every[k - 1] for k in chosen.only] if chosen.only else every
     results = shared_out(partial(solve, folder, chosen.kept, chosen.make), wanted, chosen.workers)
     kept = [r for r in results if r]
     if kept:

@@ -148,12 +148,14 @@ class _Run:
 
     def first_modes(self, time, state):
         modes = []
-        for k, (law, slot) in enumerate(zip(self.mechanism.laws, self.slots, strict=True)):
+        for law, slot in zip(self.mechanism.laws, self.slots, strict=True):
             e, v, _ = self.seen(law, slot, state)
             modes.append(law.first(e, v) if callable(law.first) else law.first)
-            if law.limits is not None and modes[-1] == STOPS:
-                modes[-1] = HELD
-                modes[-1] = self._stopped(time, state, modes, k)
+        stopping = [k for k, law in enumerate(self.mechanism.laws) if law.limits is not None and modes[k] == STOPS]
+        for k in stopping:
+            modes[k] = HELD
+        for k in stopping:
+            modes[k] = self._stopped(time, state, modes, k)
         return modes
 
     def forces(self, time, state, modes):

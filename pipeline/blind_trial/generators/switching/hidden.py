@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -72,6 +73,11 @@ _FOREIGN = tuple(_law(name, getattr(foreign_laws, name), known=False) for name i
 PIECES = {piece.form: piece for piece in (*_KNOWN, *_FOREIGN)}
 #: laws of two strengths, one each way -> the law of their mean, at the same size
 MEANS = {"asymmetric_friction": "coulomb"}
+#: laws of which two act at once: one of each kind that moves a rig in a way of its own
+_PAIRED = ("coulomb", "cubic_stiffness", "quadratic_stiffness", "quadratic_damping", "backlash", "jenkins_elements",
+           "viscoelastic_pad")
+#: those that are nearly one law at one spring
+_ONE_LAW = {"coulomb", "jenkins_elements"}
 #: faults of a sensor: form -> name of the catalogue
 FAULTS = {"gain": "sensor_gain", "reversed": "reversed_channel", "factor_1000": "unit_factor", "delay": "sensor_delay",
           "clipping": "clipping", "drift": "sensor_offset_drift"}
@@ -98,6 +104,11 @@ def known_exactly(piece, rig, index):
     if piece.form == "added_stiffness":
         return tuple(f"stiffness.{k}" for k, pair in enumerate(rig.ends) if pair == (index, WALL))
     return (f"{piece.exact}.{index}",)
+
+
+def pairs():
+    """((form, form), ...) of two laws that a rig can hide at once, at one spring or at two."""
+    return tuple(pair for pair in combinations(_PAIRED, 2) if set(pair) != _ONE_LAW)
 
 
 def hides():

@@ -46,7 +46,8 @@ class Case:
     ``truth`` and ``belief`` are Rigs, ``exact`` names of values that are stated exactly, ``far`` that of a wrong one;
     ``runs`` [Beginning], ``shown`` [(sensor, n)] as written, ``noise`` (sensor,) in SI; ``change`` of what the sensors
     show, relative; ``at``: number of the body or spring that is excited; ``told`` {parameter: SI value} of what is
-    hidden, where others have words for it; ``beyond``: ``left`` of it beside the mean of two strengths of friction.
+    hidden, where others have words for it; ``beyond``: ``left`` of it beside the mean of two strengths of friction;
+    ``second``: what is hidden beside it, of a pair.
     """
 
     seed: int
@@ -74,6 +75,20 @@ class Case:
     reach: float
     told: dict
     beyond: float = np.inf
+    second: "Second | None" = None
+
+
+@dataclass(frozen=True)
+class Second:
+    """A law hidden beside another one: its ``form`` and ``name``, the spring ``index``, its ``size``, what it leaves by
+    itself, and its values as of ``Case``."""
+
+    form: str
+    name: str
+    index: int
+    size: float
+    left: float
+    told: dict
 
 
 @dataclass(frozen=True)
@@ -98,9 +113,10 @@ class _Bench:
                 for m, run in zip(motions, self.runs, strict=True)]
 
 
-def made(seed, kind, form="", level=0.01):
+def made(seed, kind, form="", level=0.01, second="", apart=False):
     """The Case of a seed: of a class ``kind``, with the Piece or fault ``form`` hidden ('' nothing), in noise of a
-    ``level`` relative to what each sensor shows. ConfigError, ConvergenceError where none can be made of this seed."""
+    ``level`` relative to what each sensor shows; a law ``second`` beside it, of the same visibility, at another spring
+    if ``apart``. ConfigError, ConvergenceError where none can be made of this seed."""
     random = np.random.default_rng([seed, 22])
     piece = PIECES.get(form)
     layout = str(random.choice(_LAYOUTS))
@@ -122,12 +138,16 @@ def made(seed, kind, form="", level=0.01):
     nominal = Recalibration(truth, bench.sensors, trained.runs, exact, base[:-1])
     shape = tuple(map(float, random.uniform(size=3)))
     wanted = float(np.exp(random.uniform(*np.log(WANTED))))
-    hiding = _Hiding(bench, nominal, bare, sizes, piece, form, index, shape)
+    hiding = _Hiding(seed, bench, nominal, bare, sizes, piece, form, index, shape)
     size, seen = hiding.sized(wanted) if form else (0.0, base)
     left = nominal.left(seen[:-1], sizes) if form else 0.0
     if form and left < LEAST:
         raise ConfigError(f"trial: {form}", f"at least {LEAST:g} standard deviations left", f"{left:.3g}",
                           "draw another seed")
+    beside = None
+    if second:
+        beside, seen = _with_second(hiding, size, second, apart, wanted)
+        left = min(left, beside.left)
     far = str(random.choice([n for n in truth.names if n not in exact])) if kind == "wrong_value" else ""
     belief = rig.believed(random, truth, exact, far)
     spread = level * np.sqrt(np.mean([s**2 for s in seen], axis=(0, 2)))
@@ -140,7 +160,25 @@ def made(seed, kind, form="", level=0.01):
     name = piece.name if piece else FAULTS.get(form, "")
     return Case(seed, kind, form, name, index, size, left, level, colour, gap, way, at, truth, belief, exact, far, rate,
                 bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base), hiding.told(size),
-                beyond)
+                beyond, beside)
+
+
+def _with_second(first, size, form, apart, wanted):
+    """(Second, [(sensor, n)] of both) of a law ``form`` beside that of a _Hiding ``first`` at a ``size``."""
+    springs = [k for k in places(PIECES[form], first.bench.rig) if (k != first.index) == apart]
+    if not springs:
+        raise ConfigError(f"trial: {form}", "another spring", "a rig of one", "draw another seed")
+    random = np.random.default_rng([first.seed, 23])
+    second = replace(first, piece=PIECES[form], form=form, index=int(random.choice(springs)),
+                     shape=tuple(map(float, random.uniform(size=3))))
+    own, alone = second.sized(wanted)
+    left = first.nominal.left(alone[:-1], first.noise)
+    laws = (*first.piece.laws(first.spot, size), *second.piece.laws(second.spot, own))
+    seen = first.bench.seen(first.bench.motions(laws))
+    if min(left, first.nominal.left(seen[:-1], first.noise)) < LEAST or _reach(seen, first.nominal.base) > _REACH:
+        raise ConfigError(f"trial: {form}", "two laws that are both seen, within the reach of the rig", "others",
+                          "draw another seed")
+    return Second(form, second.piece.name, second.index, own, left, second.told(own)), seen
 
 
 def _beside_a_moved_wall(piece, layout):
@@ -216,8 +254,9 @@ def _sensors(random, bodies, way, rate):
 
 @dataclass(frozen=True)
 class _Hiding:
-    """How a piece or fault is put into a bench, and how large."""
+    """How a piece or fault is put into a bench of a ``seed``, and how large."""
 
+    seed: int
     bench: _Bench
     nominal: Recalibration
     bare: list

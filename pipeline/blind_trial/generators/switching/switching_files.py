@@ -19,12 +19,17 @@ _RESCALED = ("compliant_arm", "added_stiffness", "attached_mass")
 #: kind of a value -> (name in the case, units that it is stated in with their size in SI)
 _UNITS = {"mass": {"kg": 1.0, "g": 1e-3}, "stiffness": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
           "damping": {"N s/m": 1.0, "kN s/m": 1e3}}
+#: third of what a pair hides where its laws act at two springs, or at one
+APART, BESIDE = "two springs", "one spring"
 
 
 def write(draw, folder):
-    """Write the case of a Draw into a folder; its truth, as ``generators.systems`` specifies it."""
-    form, = draw.hidden or ("",)
-    case = made(draw.seed, draw.kind, form, draw.noise)
+    """Write the case of a Draw into a folder; its truth, as ``generators.systems`` specifies it.
+
+    Of a pair ``draw.hidden`` names the two laws and, third, whether they are APART.
+    """
+    form, second, where = (*draw.hidden, "", "", "")[:3]
+    case = made(draw.seed, draw.kind, form, draw.noise, second, where == APART)
     case_files.leave(folder, nominal(case), recorded(case))
     return {**truth(case), "system": draw.system}
 
@@ -80,6 +85,10 @@ def _hidden(case):
     """What a Case hides, in the words of the catalogue, where friction of one way comes on top of that of both ways:
     of two strengths the mean, and what differs where it shows."""
     told = {"place": place(case), "parameters": case.told, "alike": alike(case)}
+    if case.second:
+        second = case.second
+        return [{"name": case.name, **told, "alike": []},
+                {"name": second.name, "place": spring(second.index), "parameters": second.told, "alike": []}]
     if case.form not in MEANS:
         return [{"name": case.name, **told}]
     mean = {"name": MEANS[case.form], **told}
