@@ -310,8 +310,15 @@ class Asked:
             if matters:
                 return replace(pair, combinations=single.combinations)
             if first in single.named:
-                single = replace(single, further=pair)
+                single = self._unless_mended(replace(single, further=pair), first)
         return single
+
+    def _unless_mended(self, single, first):
+        """The Diagnosis ``single`` of a law ``first``, decided anew where what was tried beside it says that it is of
+        another form."""
+        explained, rules = first.fit.betters(single.null), self.settings.rules
+        why = single.further and second_effect.mends(single.further, explained, rules)
+        return self._objected(single, {first.candidate.name: why}) if why else single
 
     def _pair(self, single, first, seconds):
         """(Diagnosis with the ``first`` Weighed taken as known or None, whether it names one of ``seconds`` that
@@ -357,15 +364,19 @@ class Asked:
                 why = f"whether what it leaves moves as other laws do could not be computed: {sentence_of(error)}"
             if not why:
                 break
-            objected = {first.candidate.name: why}
-            weighing = told.weighing.objected(objected)
-            decision = weighing.decided(several_laws.allowing(settings, told.laws, bool(told.nominal.effects)).rules)
-            told = replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
+            told = self._objected(told, {first.candidate.name: why})
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
         return told.remarked(*filter(None, (
             instead(_not_computed)(other_form.of_noise)(told, settings.seed),
             instead(_not_computed)(steady_tones.told)(told.null))))
+
+
+    def _objected(self, told, objected):
+        """A Diagnosis ``told``, decided anew without laws ``objected`` to {name: why}."""
+        weighing = told.weighing.objected(objected)
+        decision = weighing.decided(several_laws.allowing(self.settings, told.laws, bool(told.nominal.effects)).rules)
+        return replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
 
 
 def _not_computed(error, *_):

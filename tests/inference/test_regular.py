@@ -44,6 +44,14 @@ def test_columns_of_unlike_size_keep_what_each_is_known_to():
     np.testing.assert_allclose(many[1], np.linalg.inv(hessian(jacobian)), rtol=1e-8)
 
 
+@pytest.mark.parametrize("turned", [-1e-15, 1e-16, 3e-16])
+def test_what_rounding_leaves_of_a_right_hand_side_moves_no_value(monkeypatch, turned):
+    """Kernels differ in the last digits of a basis; a gradient of 1e19 makes steps of them."""
+    basis = np.array([[-1, 1], [1, 1]]) / np.sqrt(2)
+    monkeypatch.setattr(np.linalg, "eigh", lambda _: (np.array([0.0, 2.0]), basis * [[1 + turned, 1], [1, 1]]))
+    np.testing.assert_allclose(solved(np.full((2, 2), 4e20), np.full(2, 4e19)), [0.05, 0.05])
+
+
 def test_a_fit_and_its_step_stand_where_two_values_move_the_runs_alike():
     """A Hessian of elements that are exactly alike, as 1e19 + 1 is: its elimination ends at a zero."""
     jacobian, zero = np.full((4, 2), 1e10), np.zeros(2)

@@ -56,6 +56,22 @@ def matters(pair, explained, rules):
     return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)
 
 
+def mends(pair, explained, rules):
+    """Why the law that a ``pair`` takes as known, which ``explained`` so much, is of another form, in words; else ''.
+
+    It is where a second law at its place takes more off than any law errs by, with values of none at all.
+    """
+    decision, known = rules.decision, {place for _, place in pair.null.hypothesis.effects}
+    for each in pair.weighed:
+        statistics, gained = each.statistics, each.fit.betters(pair.null)
+        beside = known & {place for _, place in each.candidate.effects}
+        if (beside and statistics.p_value <= decision.p_value and statistics.evidence_gain >= decision.evidence_gain
+                and statistics.from_null < decision.from_null and gained >= decision.law_error**2 * explained):
+            return (f"{each.candidate.name} beside it takes {gained / explained:.1%} of what it explains off again, at"
+                    f" values {statistics.from_null:.1f} standard deviations from none: a law of another form")
+    return ""
+
+
 def starts_without(first, pair, single):
     """{index among the candidates of the Diagnosis ``single``: latent values} of what ``pair`` names, at its values,
     but without the ``first`` effect.

@@ -48,6 +48,19 @@ def test_at_the_place_of_the_first_a_faint_one_may_be_an_error_of_its_law(solved
     assert second_effect.matters(beside, second.fit.betters(null) / share, DEFAULTS) is matters
 
 
+@pytest.mark.parametrize("place, away, share, of_another_form", [
+    ("here", 0.4, 5e-3, True), ("here", 3.0, 5e-3, False), ("here", 0.4, 1e-3, False), ("there", 0.4, 5e-3, False)])
+def test_a_first_law_that_values_of_nothing_mend_at_its_place_is_of_another_form(solved, place, away, share,
+                                                                                  of_another_form):
+    pair, (second,) = solved[0], solved[0].named
+    null = replace(pair.null, hypothesis=replace(pair.null.hypothesis, effects=(("first", place),)))
+    mending = replace(second, statistics=replace(second.statistics, from_null=away))
+    beside = replace(pair, calibration=replace(pair.calibration, null=null),
+                     weighing=replace(pair.weighing, weighed=(mending,)))
+    why = second_effect.mends(beside, second.fit.betters(null) / share, DEFAULTS)
+    assert bool(why) is of_another_form and why.endswith("another form" if why else "")
+
+
 def test_the_second_begins_without_the_first(solved):
     single, catalogue = solved
     first = next(c for c in catalogue if c.name == "effect_1")
