@@ -1,6 +1,8 @@
 """The reader first: what is known while a chain runs, as a sentence on the terminal and a page in the run folder."""
 
+import threading
 import time
+from functools import partial
 
 from pipeline import __version__
 from pipeline.case_models.early.first_look import coarse
@@ -24,16 +26,18 @@ class EarlyPages:
         """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
         self._job, self._context, self._say = job, context, say
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
-        self._done = set()
+        self._done, self._first = set(), threading.Lock()
 
     def open(self, states):
-        """The first look, unless the planned ``states`` compute no complex modes or the case has none."""
+        """The first look, beside the first stages, unless the planned ``states`` compute no complex modes or the case
+        has none."""
         if any(state.reasons for state in states if state.stage.name == "complex_modes"):
             self._try(self._look)
 
     def follow(self, stage, computed=True):
         """A page after ``stage``, if it was ``computed`` and changed the answer, and others may change it again."""
-        self._done.add(stage.name)
+        with self._first:
+            self._done.add(stage.name)
         coming = [name for name in self._stages if name not in self._done]
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
             self._try(lambda: self._follow(coming[:-1]))
@@ -45,9 +49,21 @@ class EarlyPages:
         from pipeline.views.pages.early import first_page
 
         last = self._stages["complex_modes"]
-        run = self._job.looked_ahead(LOOK, changes, last, self._context)
-        modes = store.read(last.output, run.path(last.output))
-        self._show(*first_page(modes, self._card(), [name for name in self._stages if name != "report"]))
+
+        run, task = self._job.ready_to_look(LOOK, changes, last, self._context)
+
+        def first(ended):
+            ended()
+            modes = store.read(last.output, run.path(last.output))
+            told = first_page(modes, self._card(), [name for name in self._stages if name != "report"])
+            with self._first:
+                if last.name not in self._done:     # else the answer itself is there
+                    self._show(*told)
+
+        if self._context.spares and self._context.sees_files:
+            self._context.begin(*task).add_done_callback(lambda future: self._try(lambda: first(future.result)))
+        else:
+            first(partial(*task))
 
     def _follow(self, ahead):
         from pipeline.views.pages.early import later_page

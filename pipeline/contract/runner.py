@@ -207,16 +207,17 @@ class ChainRun:
                 if new:
                     self._note_variants()
 
-    def looked_ahead(self, name, changes, last, context):
-        """The run of a variant that no stage reads, computed up to the stage ``last`` with what it shares."""
+    def ready_to_look(self, name, changes, last, context):
+        """(Run of a variant that no stage reads, task (function, item) that computes it up to ``last``); what it shares
+        is computed."""
         run = self.varied(name, changes)
         read = {product for stage in run._towards(last) for product in run.filled(stage).values() if product}
         for product in sorted(read, key=lambda each: each.name):
             if product.name in run.shared:
                 for stage in self._towards(self.producer((product,))):
                     self._bring(stage, context, frozenset(), lambda state, seconds: None)
-        _computed((run, [last]), context)
-        return run
+        self._note()
+        return run, (_computed, (run, [last]))
 
     def announce(self, stage, name, content):
         """Write ``content`` where ``stage`` will write its companion ``name``, in place of what it wrote before."""

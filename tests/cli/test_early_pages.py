@@ -1,6 +1,7 @@
 """What a reader learns while a chain runs; what goes wrong there leaves the run as it is."""
 
 import re
+from concurrent.futures import Future
 from types import SimpleNamespace
 
 import pytest
@@ -28,9 +29,9 @@ class Job:
     def path(self, output):
         return output
 
-    def looked_ahead(self, name, changes, last, context):
+    def ready_to_look(self, name, changes, last, context):
         self.looks += 1
-        return self
+        return self, (id, self)
 
     def announce(self, stage, name, content):
         self.pages.append((stage.name, name, content))
@@ -73,13 +74,40 @@ def test_a_look_that_fails_is_one_line_and_no_page(products, monkeypatch):
     def failing(*_):
         raise ConvergenceError("sliding state", "a residual of 1e-8", "2e-3")
 
-    monkeypatch.setattr(job, "looked_ahead", failing)
+    monkeypatch.setattr(job, "ready_to_look", failing)
     early.open(job.planned("complex_modes"))
     assert len(said) == 1 and "no page before the end of the run (ConvergenceError: sliding state" in said[0]
     assert not job.pages
     early.follow(job.stages[0], computed=False)
     early.follow(job.stages[1])
     assert len(job.pages) == 1
+
+
+def begun(job):
+    """(EarlyPages, what they said, Future of the look) of a context that has a process to spare."""
+    said, future = [], Future()
+    early = EarlyPages(job, SimpleNamespace(spares=True, sees_files=True, begin=lambda *task: future), said.append)
+    early.open(job.planned("complex_modes"))
+    assert job.looks == 1 and not said
+    return early, said, future
+
+
+@pytest.mark.parametrize("done, said_first", [(1, True), (2, False)])
+def test_a_look_beside_the_first_stages_is_told_when_it_is_done_unless_the_answer_is_there(products, done, said_first):
+    job = Job()
+    early, said, future = begun(job)
+    for stage in job.stages[:done]:
+        early.follow(stage)
+    before = len(said)
+    future.set_result([])
+    assert ["First look" in line for line in said[before:]] == [True] * said_first
+
+
+def test_a_look_beside_the_first_stages_that_fails_is_one_line(products):
+    job = Job()
+    _, said, future = begun(job)
+    future.set_exception(ConvergenceError("sliding state", "a residual of 1e-8", "2e-3"))
+    assert len(said) == 1 and "ConvergenceError: sliding state" in said[0] and not job.pages
 
 
 def test_a_stage_that_is_done_after_later_ones_changes_their_page(products, monkeypatch):

@@ -293,11 +293,13 @@ def test_provenance_says_how_it_was_made(config):
 def test_a_look_ahead_computes_a_variant_with_what_it_shares_and_nothing_else(config):
     run = job(config)
     with locked(run.folder):
-        look = run.looked_ahead("look", {"doubled.factor": 3}, run.case.stages[1], Context())
+        look, (compute, item) = run.ready_to_look("look", {"doubled.factor": 3}, run.case.stages[1], Context())
+        compute(item)
     assert store.read(Doubled, look.path(Doubled)).signal[0, 0] == 3000.0
     assert sorted(path.name for path in run.folder.glob("*.h5")) == ["source.h5"], "shared, and computed once"
     before = look.path(Doubled).stat().st_mtime_ns
-    again = job(config).looked_ahead("look", {"doubled.factor": 3}, run.case.stages[1], Context())
+    again, (compute, item) = job(config).ready_to_look("look", {"doubled.factor": 3}, run.case.stages[1], Context())
+    assert not compute(item)
     assert again.path(Doubled).stat().st_mtime_ns == before
     assert run.execute(Context()) == 1
 
