@@ -27,11 +27,9 @@ from pipeline.inference.fitting.refitting import Refitter, brought_on, refit_cat
 from pipeline.inference.long_records import beginnings
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.search.score_screen import screen_catalogue
-from pipeline.inference.search.selection import Combination, merged, sets_and_parts
+from pipeline.inference.search.selection import Combination, merged, sets_and_parts, where_felt
 from pipeline.inference.time_budget import TimeSpentError, share, spent, within
 
-#: share of the best candidate's gain at which another one tells that its place matters
-_FELT = 0.05
 #: part of the time that goes to the beginnings of long records at most
 _BEGINNINGS = 0.6
 
@@ -155,7 +153,7 @@ class Asked:
         if spent():
             return refits, told.ended()
         catalogue = (*refits.refitter.catalogue,
-                     *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
+                     *where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
         screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
         refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
         if refits.overtake(calibration) and not spent():
@@ -180,13 +178,17 @@ class Asked:
         if along is None:
             return self.pairs(single, self.catalogue)
         selection = along.selected()
-        if selection.left > rules.decision.along_motions:
+        badly = selection.left > rules.decision.along_motions
+        if badly:
             pair = self.pairs(single, self.catalogue)
             if pair.base is not None and reaches_noise(pair, rules):
                 return pair
         best = self._simple_first(single, along, selection)
+        if best.base is not None:
+            return best
         unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
-        return self.pairs(best, unseen) if best.base is None and unseen else best
+        seconds = unseen if badly or best.named else self.catalogue     # motions have misled, or not shown all
+        return self.pairs(best, seconds) if seconds else best
 
     def _simple_first(self, single, along, selection):
         """``together`` of a Selection along motions, unless candidates that are not elaborate reach the noise."""
@@ -332,11 +334,25 @@ class Asked:
         except BrakechainError:
             return None, False
         if not second_effect.matters(pair, explained, rules):
-            return pair, False
+            whole = asked.joined(single, first, pair)
+            return whole or pair, whole is not None
         starts = second_effect.starts_without(first, pair, single)
         alone = decided(single.refits.begun_anew(starts), self.settings, single.base)
         dispensable = alone.decision.verdict in second_effect.NAMING and not second_effect.remains(first, pair, rules)
         return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
+
+    def joined(self, single, first, pair):
+        """The Diagnosis of the law ``first``, which these runs take as known, and the one that explains most beside it,
+        fitted as one set where a ``pair`` names none though both leave little: judged by what they explain together.
+        None where they are not named."""
+        second = second_effect.unnamed(single, pair, self.settings.rules)
+        if second is None:
+            return None
+        asked = replace(self, catalogue=pair.refits.refitter.catalogue)
+        try:
+            return asked.named_together(single, second.fit.latent, second.candidate, [first.refined])[0]
+        except BrakechainError:
+            return None
 
     def _tied_pair(self, single):
         """The first Diagnosis that names anything beside a significant effect taken as known; ``single`` where none
@@ -355,7 +371,8 @@ class Asked:
     def of_its_form(self, told):
         """A Diagnosis ``told``, decided anew without laws that it names and that are of another form; where nothing can
         be said, whether noise may be what is left, and which tones stand out of it."""
-        settings, rules = self.settings, self.settings.rules.decision
+        settings = self.settings
+        rules = several_laws.allowing(settings, told.laws).rules.decision
         while told.decision.verdict == "missing":
             first = told.named[0]
             try:
@@ -381,19 +398,3 @@ class Asked:
 
 def _not_computed(error, *_):
     return f"whether noise or a tone may be what is left could not be computed: {sentence_of(error)}"
-
-
-def _where_felt(elaborate, simple, screen, refits):
-    """Those of the ``elaborate`` candidates that act where a simple one matters: it scores, or its refit explains, a
-    share of what the best does."""
-    def places(candidate):
-        return {place for _, place in candidate.effects}
-
-    gains = np.maximum(screen.score, 0.0) ** 2
-    explained = {i: max(r.fit.betters(refits.calibration.null), 0.0) for i, r in refits.results.items() if r.fit}
-    most, best = gains.max(initial=0.0), max(explained.values(), default=0.0)
-    felt = set()
-    for i, candidate in enumerate(simple):
-        if gains[i] >= _FELT * most or explained.get(i, -1.0) >= _FELT * best:
-            felt |= places(candidate)
-    return tuple(c for c in elaborate if places(c) & felt)

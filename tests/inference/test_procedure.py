@@ -10,14 +10,16 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.inference import procedure
 from pipeline.inference.decision import weighing
 from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
-from pipeline.inference.procedure import _where_felt, diagnose
+from pipeline.inference.procedure import Asked, diagnose
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import score_screen
+from pipeline.inference.search.selection import Selection, where_felt
 from tests.inference import linear
 from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, predict_with_lag
 
@@ -268,7 +270,21 @@ def test_elaborate_candidates_are_weighed_where_simple_ones_are_felt():
     elaborate = [candidate("lugre", "left"), candidate("lugre", "right"), candidate("lugre", "above")]
     nothing = SimpleNamespace(results={}, calibration=SimpleNamespace(null=None))
     screen = SimpleNamespace(score=np.array([10.0, -np.inf, 1.0]))
-    assert _where_felt(elaborate, simple, screen, nothing) == (elaborate[0],)
+    assert where_felt(elaborate, simple, screen, nothing) == (elaborate[0],)
     explaining = SimpleNamespace(fit=SimpleNamespace(betters=lambda null: 5.0))
     refitted = SimpleNamespace(results={1: explaining}, calibration=SimpleNamespace(null=None))
-    assert _where_felt(elaborate, simple, screen, refitted) == tuple(elaborate[:2])
+    assert where_felt(elaborate, simple, screen, refitted) == tuple(elaborate[:2])
+
+
+@pytest.mark.parametrize("left, verdict, tried", [(3.0, "unknown", 3), (3.0, "missing", 1), (50.0, "unknown", 1)])
+def test_pairs_follow_where_no_set_along_motions_is_named(monkeypatch, left, verdict, tried):
+    """Motions that mislead have judged two of three; where pairs came first, they do not come again."""
+    asked, seconds = Asked(None, {}, tuple(CATALOGUE[:3]), Settings(), map), []
+    single = SimpleNamespace(decision=SimpleNamespace(verdict=verdict), base=None, weighed=(), null=None,
+                             combinations=(), named=[SimpleNamespace(fit=None)] * (verdict == "missing"))
+    selection = Selection((), (), (), np.zeros(0), {}, frozenset({0, 1}), left)
+    monkeypatch.setattr(procedure.several, "along_motions", lambda *_: SimpleNamespace(selected=lambda *_: selection))
+    monkeypatch.setattr(Asked, "together", lambda self, single, selection: single)
+    monkeypatch.setattr(Asked, "pairs", lambda self, single, catalogue: (seconds.append(len(catalogue)), single)[1])
+    asked.along(single, object())
+    assert seconds == [3] * (left > DEFAULTS.decision.along_motions) + [tried]

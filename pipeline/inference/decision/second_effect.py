@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.inference.decision.candidate_statistics import unfinished
+from pipeline.inference.decision.candidate_statistics import unexplained, unfinished
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.fitting.effective_sample_size import doubt
 
@@ -54,6 +54,16 @@ def matters(pair, explained, rules):
         return gained >= decision.second_share * explained
 
     return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)
+
+
+def unnamed(single, pair, rules):
+    """What explains most beside the law that a ``pair`` takes as known, a Weighed, where neither it nor the Diagnosis
+    ``single`` names anything, though both laws leave no more than one may; else None."""
+    if {single.decision.verdict, pair.decision.verdict} != {"unknown"}:
+        return None
+    best = next((w for w in pair.weighed if w.candidate.kind == "physics"), None)
+    enough = best and unexplained(single.null, best.fit, rules) <= rules.decision.unexplained
+    return best if enough else None
 
 
 def mends(pair, explained, rules):

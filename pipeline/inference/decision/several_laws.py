@@ -39,8 +39,9 @@ def allowing(settings, laws, beside=False):
     """The settings of inference for a set of so many ``laws``: a coefficient takes up the errors of all their laws.
 
     It may follow the motion along the runs by as much, and between runs, where one law fades before the others, by
-    more: whether coefficients hold for other runs is asked by leaving runs out (``several``). What holds only in part
-    is not named with others, nor ``beside`` one that is taken as known: two laws together imitate many a third.
+    more: whether coefficients hold for other runs is asked by leaving runs out (``several``). A shape that adapts may
+    leave the square of the errors of all. What holds only in part is not named with others, nor ``beside`` one that is
+    taken as known: two laws together imitate many a third.
     """
     decision = settings.rules.decision
     if laws == 1:
@@ -48,7 +49,8 @@ def allowing(settings, laws, beside=False):
         return replace(settings, rules=replace(settings.rules, decision=strict)) if beside else settings
     varies = max(decision.varies_by, laws * decision.law_error)
     return replace(settings, rules=replace(settings.rules, decision=replace(
-        decision, varies_by=varies, varies_too_much=varies, disagreement=np.inf)))
+        decision, varies_by=varies, varies_too_much=varies, disagreement=np.inf,
+        law_error=laws * decision.law_error)))
 
 
 def against(null, problem, budget, weighing, rules):

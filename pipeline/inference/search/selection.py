@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+#: share of the best candidate's gain at which another one tells that its place matters
+_FELT = 0.05
+
 
 @dataclass(frozen=True)
 class Combination:
@@ -53,3 +56,19 @@ def merged(first, others):
     """Combinations of ``first``, then those of ``others`` that are not among them."""
     there = {frozenset(c.effects) for c in first}
     return (*first, *(c for c in others if frozenset(c.effects) not in there))
+
+
+def where_felt(elaborate, simple, screen, refits):
+    """Those of the ``elaborate`` candidates that act where a simple one matters: it scores, or its refit explains, a
+    share of what the best does."""
+    def places(candidate):
+        return {place for _, place in candidate.effects}
+
+    gains = np.maximum(screen.score, 0.0) ** 2
+    explained = {i: max(r.fit.betters(refits.calibration.null), 0.0) for i, r in refits.results.items() if r.fit}
+    most, best = gains.max(initial=0.0), max(explained.values(), default=0.0)
+    felt = set()
+    for i, candidate in enumerate(simple):
+        if gains[i] >= _FELT * most or explained.get(i, -1.0) >= _FELT * best:
+            felt |= places(candidate)
+    return tuple(c for c in elaborate if places(c) & felt)

@@ -61,6 +61,23 @@ def test_a_first_law_that_values_of_nothing_mend_at_its_place_is_of_another_form
     assert bool(why) is of_another_form and why.endswith("another form" if why else "")
 
 
+@pytest.mark.parametrize("single_says, pair_says, kind, left, found", [
+    ("unknown", "unknown", "physics", 0.03, True), ("missing", "unknown", "physics", 0.03, False),
+    ("unknown", "tie", "physics", 0.03, False), ("unknown", "unknown", "sensor", 0.03, False),
+    ("unknown", "unknown", "physics", 0.9, False)])
+def test_what_leads_beside_a_first_law_unnamed_may_be_named_with_it(solved, single_says, pair_says, kind, left, found):
+    told, (second,) = solved[0], solved[0].named
+    single, pair = (replace(told, decision=replace(told.decision, verdict=verdict))
+                    for verdict in (single_says, pair_says))
+    counts = second.fit.counts
+    excess = (single.null.chi_square.sum() - counts.sum()) * left + counts.sum() * (
+        1 + DEFAULTS.decision.noise_uncertainty)
+    fit = replace(second.fit, residuals=tuple(np.full(n, np.sqrt(excess / counts.sum())) for n in counts))
+    led = replace(second, fit=fit, candidate=replace(second.candidate, kind=kind))
+    pair = replace(pair, weighing=replace(pair.weighing, weighed=(led,)))
+    assert (second_effect.unnamed(single, pair, DEFAULTS) is led) is found
+
+
 def test_the_second_begins_without_the_first(solved):
     single, catalogue = solved
     first = next(c for c in catalogue if c.name == "effect_1")

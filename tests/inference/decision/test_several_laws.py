@@ -44,6 +44,7 @@ def test_values_may_vary_by_the_errors_of_all_laws():
     rules = several_laws.allowing(Settings(), 3).rules.decision
     assert rules.varies_by == pytest.approx(3 * DEFAULTS.decision.law_error)
     assert rules.varies_too_much == rules.varies_by, "what holds only in part is not named with others"
+    assert rules.law_error == pytest.approx(3 * DEFAULTS.decision.law_error)
     alone, beside = (several_laws.allowing(Settings(), 1, second).rules.decision for second in (False, True))
     assert alone == DEFAULTS.decision and beside.varies_too_much == alone.varies_by < alone.varies_too_much
 

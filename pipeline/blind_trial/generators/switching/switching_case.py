@@ -146,7 +146,8 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
                           "draw another seed")
     beside = None
     if second:
-        beside, seen = _with_second(hiding, size, second, apart, wanted)
+        springs = [k for k in places(PIECES[second], truth) if (k != index) == apart and (k != at or way != "wall")]
+        beside, seen = _with_second(hiding, size, second, springs, wanted)
         left = min(left, beside.left)
     far = str(random.choice([n for n in truth.names if n not in exact])) if kind == "wrong_value" else ""
     belief = rig.believed(random, truth, exact, far)
@@ -163,9 +164,9 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
                 beyond, beside)
 
 
-def _with_second(first, size, form, apart, wanted):
-    """(Second, [(sensor, n)] of both) of a law ``form`` beside that of a _Hiding ``first`` at a ``size``."""
-    springs = [k for k in places(PIECES[form], first.bench.rig) if (k != first.index) == apart]
+def _with_second(first, size, form, springs, wanted):
+    """(Second, [(sensor, n)] of both) of a law ``form`` at one of ``springs`` beside that of a _Hiding ``first`` at a
+    ``size``."""
     if not springs:
         raise ConfigError(f"trial: {form}", "another spring", "a rig of one", "draw another seed")
     random = np.random.default_rng([first.seed, 23])
