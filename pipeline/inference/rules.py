@@ -116,7 +116,7 @@ class DecisionRules:
     drift: float = threshold(0.001, "p-value below which drift alone tells of missing physics")
     first_share: float = threshold(0.9, "fraction of what the best first effect explains at which another one is tried"
                                         " as the first of a pair")
-    first_unexplained: float = threshold(0.5, "fraction of the excess error that the first of a pair may leave")
+    first_unexplained: float = threshold(0.7, "fraction of the excess error that the first of a pair may leave")
     posterior_of_few: float = threshold(0.95, "takes the place of `posterior` where runs hold a few dozen numbers"
                                               " (poles, friction): evidence e^3 times that of the next")
     agreement_points: int = threshold(3, "operating points from which agreement of coefficients is tested")

@@ -11,14 +11,18 @@ NAMING = ("missing", "sensor", "numerics")
 
 
 def leading(single, rules, count=2):
-    """Refitted candidates worth taking as known: significant ones, best first, another only if it explains as much."""
+    """Refitted candidates worth taking as known: significant ones, best first, another only if it explains as much.
+
+    What beside it reaches the noise proves a first; where none has come to its end those are taken that have not, as
+    beside an unfinished nominal model.
+    """
     decision = rules.decision
     if single.decision.verdict == "missing":
         return single.named[:1]
     good = [w for w in single.weighed if w.statistics.p_value <= decision.p_value
             and w.statistics.evidence_gain >= decision.evidence_gain
-            and w.statistics.unexplained < decision.first_unexplained
-            and not unfinished(w.fit, single.null, rules.evidence)]
+            and w.statistics.unexplained < decision.first_unexplained]
+    good = [w for w in good if not unfinished(w.fit, single.null, rules.evidence)] or good
     explained = [w.fit.betters(single.null) for w in good]
     return [w for w, gained in zip(good[:count], explained, strict=False)
             if gained >= decision.first_share * max(explained)]
