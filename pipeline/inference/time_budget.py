@@ -22,6 +22,8 @@ from pipeline.contract.errors import ConvergenceError
 
 #: whether the time of the diagnosis that runs here is spent
 _SPENT = ContextVar("time of a diagnosis", default=lambda: False)
+#: seconds of the clock for which what is left is not read again, at most
+_LONGEST = 0.1
 #: its TimeBudget, in the process that counts it
 _BUDGET = ContextVar("budget of a diagnosis", default=None)
 
@@ -39,6 +41,29 @@ def spent():
     return _SPENT.get()()
 
 
+class _Gone:
+    """Tells whether ``left()`` CPU seconds are gone.
+
+    On virtual machines it takes half a millisecond to read them, as long as a short prediction: they are read no sooner
+    than they can be gone, ten times a second at least, and once more when they have ``changed()``.
+    """
+
+    def __init__(self, left):
+        self._left, self._cores = left, os.cpu_count() or 1
+        self.changed()
+
+    def changed(self):
+        self._look = -np.inf
+
+    def __call__(self):
+        now = time.monotonic()
+        if now < self._look:
+            return False
+        left = self._left()
+        self._look = now + min(left / self._cores, _LONGEST)
+        return left <= 0
+
+
 @contextmanager
 def until(over):
     """Context in which the time is spent once ``over()`` says so."""
@@ -52,7 +77,7 @@ def until(over):
 def within(seconds):
     """Context in which the time is spent after so many CPU ``seconds`` of this process; np.inf: never."""
     end = time.process_time() + seconds
-    return until(lambda: time.process_time() >= end)
+    return until(_Gone(lambda: end - time.process_time()))
 
 
 @contextmanager
@@ -64,10 +89,12 @@ def share(part):
         return
     whole = budget.seconds
     budget.seconds = budget.used + part * max(whole - budget.used, 0.0)
+    budget.gone.changed()
     try:
         yield
     finally:
         budget.seconds = whole
+        budget.gone.changed()
 
 
 class TimeBudget:
@@ -75,6 +102,7 @@ class TimeBudget:
 
     def __init__(self, seconds=np.inf):
         self.seconds, self._begin, self._elsewhere, self.by_name = seconds, time.process_time(), Counter(), Counter()
+        self.gone = _Gone(lambda: self.seconds - self.used)
 
     @property
     def used(self):
@@ -86,7 +114,7 @@ class TimeBudget:
         """Context in which the time is spent once this budget is."""
         token = _BUDGET.set(self)
         try:
-            with until(lambda: self.used >= self.seconds):
+            with until(self.gone):
                 yield
         finally:
             _BUDGET.reset(token)
@@ -100,6 +128,7 @@ class TimeBudget:
                 if process != os.getpid():
                     self._elsewhere[process] += took
                 results.append(result)
+            self.gone.changed()
             return results
 
         return counted
@@ -118,7 +147,8 @@ def _timed(function, this_round, seconds, item):
     if _ROUND[0] != this_round:
         _ROUND[:] = this_round, begin
     end = _ROUND[1] + seconds
-    with until(lambda: over() or time.process_time() >= end):
+    gone = _Gone(lambda: end - time.process_time())
+    with until(lambda: over() or gone()):
         result = function(item)
     return result, _name(item), os.getpid(), time.process_time() - begin
 

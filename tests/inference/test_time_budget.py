@@ -1,5 +1,6 @@
 """A diagnosis whose time is spent: it ends, says so, and names nothing that the whole one would not."""
 
+import os
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -93,7 +94,8 @@ def test_tasks_of_a_round_in_one_process_share_what_is_left(monkeypatch):
 
 def test_a_part_of_the_time_goes_to_what_comes_first(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr(time_budget.time, "process_time", lambda: now[0])
+    for clock in ("process_time", "monotonic"):
+        monkeypatch.setattr(time_budget.time, clock, lambda: now[0])
     with time_budget.share(0.5):
         assert not time_budget.spent(), "nothing is counted"
     with time_budget.TimeBudget(10.0).counting():
@@ -106,3 +108,14 @@ def test_a_part_of_the_time_goes_to_what_comes_first(monkeypatch):
         assert not time_budget.spent()
         now[0] = 10.1
         assert time_budget.spent()
+
+
+def test_cpu_time_is_read_no_sooner_than_it_can_be_gone_and_soon_enough(monkeypatch):
+    """A process of as many threads as there are cores, each asking every millisecond."""
+    now, cores, read = [0.0], os.cpu_count() or 1, []
+    monkeypatch.setattr(time_budget.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(time_budget.time, "process_time", lambda: (read.append(now[0]), cores * now[0])[1])
+    with time_budget.within(5.0 * cores):
+        while not time_budget.spent():
+            now[0] += 1e-3
+    assert 5.0 <= now[0] < 5.002 and len(read) < 70
