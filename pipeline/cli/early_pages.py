@@ -26,7 +26,7 @@ class EarlyPages:
         """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
         self._job, self._context, self._say = job, context, say
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
-        self._done, self._first = set(), threading.Lock()
+        self._done, self._lock = set(), threading.Lock()
 
     def open(self, states):
         """The first look, beside the first stages, unless the planned ``states`` compute no complex modes or the case
@@ -36,7 +36,7 @@ class EarlyPages:
 
     def follow(self, stage, computed=True):
         """A page after ``stage``, if it was ``computed`` and changed the answer, and others may change it again."""
-        with self._first:
+        with self._lock:
             self._done.add(stage.name)
         coming = [name for name in self._stages if name not in self._done]
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
@@ -46,24 +46,25 @@ class EarlyPages:
         changes = coarse(self._job.case.sections)
         if not changes:
             return
+        last = self._stages["complex_modes"]
+        run, task = self._job.ready_to_look(LOOK, changes, last, self._context)
+        looked = partial(self._looked, run, last)
+        if self._context.spares and self._context.sees_files:
+            self._context.begin(*task).add_done_callback(lambda future: self._try(partial(looked, future.result)))
+        else:
+            looked(partial(*task))
+
+    def _looked(self, run, last, ended):
+        """Tell what a ``run`` found up to the stage ``last``, unless the answer itself is there; ``ended()`` raises
+        what went wrong."""
         from pipeline.views.pages.early import first_page
 
-        last = self._stages["complex_modes"]
-
-        run, task = self._job.ready_to_look(LOOK, changes, last, self._context)
-
-        def first(ended):
-            ended()
-            modes = store.read(last.output, run.path(last.output))
-            told = first_page(modes, self._card(), [name for name in self._stages if name != "report"])
-            with self._first:
-                if last.name not in self._done:     # else the answer itself is there
-                    self._show(*told)
-
-        if self._context.spares and self._context.sees_files:
-            self._context.begin(*task).add_done_callback(lambda future: self._try(lambda: first(future.result)))
-        else:
-            first(partial(*task))
+        ended()
+        modes = store.read(last.output, run.path(last.output))
+        told = first_page(modes, self._card(), [name for name in self._stages if name != "report"])
+        with self._lock:
+            if last.name not in self._done:
+                self._show(*told)
 
     def _follow(self, ahead):
         from pipeline.views.pages.early import later_page

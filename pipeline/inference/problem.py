@@ -81,6 +81,11 @@ class Hypothesis:
             raise ConfigError(f"hypothesis {self.name}: kind", "physics, sensor or numerics", self.kind)
 
     @property
+    def places(self):
+        """Places of its effects, a set."""
+        return {place for _, place in self.effects}
+
+    @property
     def nominal(self):
         """Latent coordinates (k,) of the nominal values."""
         return np.array([p.prior.latent(p.nominal) for p in self.parameters], dtype=float)

@@ -359,7 +359,7 @@ class Asked:
         does."""
         rules = self.settings.rules.decision
         for first in single.weighed:
-            if first.statistics.p_value > rules.p_value or first.statistics.evidence_gain < rules.evidence_gain:
+            if not first.statistics.significant(rules):
                 continue
             rest = tuple(c for c in self.catalogue if c.name != first.candidate.name)
             pair = diagnose(self.problem.given(first.refined), self.budget, rest,

@@ -92,8 +92,7 @@ def _shaped(fit, null, candidate):
     """[Distance from none in standard deviations] of a candidate of one size and shapes that may trade with it, by what
     the size takes off the objective; [] of others, and of a law at the place of one that is taken as known, whose error
     it may take off."""
-    known = {place for _, place in null.hypothesis.effects}
-    if len(candidate.sizes) != 1 or not candidate.shaping or known & {place for _, place in candidate.effects}:
+    if len(candidate.sizes) != 1 or not candidate.shaping or null.hypothesis.places & candidate.places:
         return []
     return [np.sqrt(fit.weights.max() * max(fit.betters(null), 0.0))]
 

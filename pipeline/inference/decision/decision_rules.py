@@ -51,6 +51,10 @@ class CandidateStatistics:
     nominal_p: float = 1.0
     remarks: tuple = ()
 
+    def significant(self, rules):
+        """Whether it helps beyond chance on the runs that were fitted, by DecisionRules."""
+        return self.p_value <= rules.p_value and self.evidence_gain >= rules.evidence_gain
+
 
 @dataclass(frozen=True)
 class RunStatistics:
@@ -90,7 +94,7 @@ class Decision:
 
 def decide(runs, candidates, rules):
     """Decision over the CandidateStatistics of all refitted ``candidates`` and the RunStatistics ``runs``."""
-    significant = [c for c in candidates if c.p_value <= rules.p_value and c.evidence_gain >= rules.evidence_gain]
+    significant = [c for c in candidates if c.significant(rules)]
     judged = [(c, objections(c, runs, rules)) for c in significant]
     reasons = [f"{c.name}: {why}" for c, objected in judged for why in objected]
     survivors, refused = ([c for c, objected in judged if bool(objected) is broken] for broken in (False, True))

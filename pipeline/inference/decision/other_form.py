@@ -91,9 +91,9 @@ def objection(diagnosis, weighed, catalogue, rules, fan_out=map, seed=0):
     fit = weighed.fit
     if fit.unordered:
         return ""
-    known, places = (set(each) for each in zip(*fit.hypothesis.effects, strict=True))
+    known = {effect for effect, _ in fit.hypothesis.effects}
     others = tuple(c for c in catalogue if c.kind == "physics" and not c.elaborate and c.effects[0][0] not in known
-                   and places & {place for _, place in c.effects})
+                   and fit.hypothesis.places & c.places)
     left = left_along(diagnosis.calibration.problem.given(weighed.refined), fit, others, fan_out, seed)
     if left is None or left.p_value > rules.form_p:
         return ""

@@ -19,8 +19,7 @@ def leading(single, rules, count=2):
     decision = rules.decision
     if single.decision.verdict == "missing":
         return single.named[:1]
-    good = [w for w in single.weighed if w.statistics.p_value <= decision.p_value
-            and w.statistics.evidence_gain >= decision.evidence_gain
+    good = [w for w in single.weighed if w.statistics.significant(decision)
             and w.statistics.unexplained < decision.first_unexplained]
     good = [w for w in good if not unfinished(w.fit, single.null, rules.evidence)] or good
     explained = [w.fit.betters(single.null) for w in good]
@@ -47,12 +46,12 @@ def matters(pair, explained, rules):
     that any law has.
     """
     decision, excluded = rules.decision, rules.calibration.excluded
-    odd, places = len(pair.null.excluded(excluded)), {place for _, place in pair.null.hypothesis.effects}
+    odd = len(pair.null.excluded(excluded))
 
     def is_more(second):
         gained = second.fit.betters(pair.null)
         if second.fit.reaches_noise(decision.noise_uncertainty) and not second.statistics.held_out_left:
-            beside = places & {place for _, place in second.candidate.effects}
+            beside = pair.null.hypothesis.places & second.candidate.places
             least = decision.law_error**2 if beside else decision.second_at_noise
             return gained >= least * explained or len(second.fit.excluded(excluded)) < odd
         return gained >= decision.second_share * explained
@@ -75,11 +74,10 @@ def mends(pair, explained, rules):
 
     It is where a second law at its place takes more off than any law errs by, with values of none at all.
     """
-    decision, known = rules.decision, {place for _, place in pair.null.hypothesis.effects}
+    decision = rules.decision
     for each in pair.weighed:
         statistics, gained = each.statistics, each.fit.betters(pair.null)
-        beside = known & {place for _, place in each.candidate.effects}
-        if (beside and statistics.p_value <= decision.p_value and statistics.evidence_gain >= decision.evidence_gain
+        if (pair.null.hypothesis.places & each.candidate.places and statistics.significant(decision)
                 and statistics.from_null < decision.from_null and gained >= decision.law_error**2 * explained):
             return (f"{each.candidate.name} beside it takes {gained / explained:.1%} of what it explains off again, at"
                     f" values {statistics.from_null:.1f} standard deviations from none: a law of another form")

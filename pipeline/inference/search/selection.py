@@ -61,14 +61,11 @@ def merged(first, others):
 def where_felt(elaborate, simple, screen, refits):
     """Those of the ``elaborate`` candidates that act where a simple one matters: it scores, or its refit explains, a
     share of what the best does."""
-    def places(candidate):
-        return {place for _, place in candidate.effects}
-
     gains = np.maximum(screen.score, 0.0) ** 2
     explained = {i: max(r.fit.betters(refits.calibration.null), 0.0) for i, r in refits.results.items() if r.fit}
     most, best = gains.max(initial=0.0), max(explained.values(), default=0.0)
     felt = set()
     for i, candidate in enumerate(simple):
         if gains[i] >= _FELT * most or explained.get(i, -1.0) >= _FELT * best:
-            felt |= places(candidate)
-    return tuple(c for c in elaborate if places(c) & felt)
+            felt |= candidate.places
+    return tuple(c for c in elaborate if c.places & felt)

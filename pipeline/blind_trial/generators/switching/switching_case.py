@@ -80,13 +80,11 @@ class Case:
 
 @dataclass(frozen=True)
 class Second:
-    """A law hidden beside another one: its ``form`` and ``name``, the spring ``index``, its ``size``, what it leaves by
-    itself, and its values as of ``Case``."""
+    """A law hidden beside another one: its ``name``, the spring ``index``, what is ``left`` of it by itself, and its
+    values ``told``, as of ``Case``."""
 
-    form: str
     name: str
     index: int
-    size: float
     left: float
     told: dict
 
@@ -138,7 +136,7 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
     nominal = Recalibration(truth, bench.sensors, trained.runs, exact, base[:-1])
     shape = tuple(map(float, random.uniform(size=3)))
     wanted = float(np.exp(random.uniform(*np.log(WANTED))))
-    hiding = _Hiding(seed, bench, nominal, bare, sizes, piece, form, index, shape)
+    hiding = _Hiding(bench, nominal, bare, sizes, piece, form, index, shape)
     size, seen = hiding.sized(wanted) if form else (0.0, base)
     left = nominal.left(seen[:-1], sizes) if form else 0.0
     if form and left < LEAST:
@@ -147,7 +145,7 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
     beside = None
     if second:
         springs = [k for k in places(PIECES[second], truth) if (k != index) == apart and (k != at or way != "wall")]
-        beside, seen = _with_second(hiding, size, second, springs, wanted)
+        beside, seen = _with_second(np.random.default_rng([seed, 23]), hiding, size, second, springs, wanted)
         left = min(left, beside.left)
     far = str(random.choice([n for n in truth.names if n not in exact])) if kind == "wrong_value" else ""
     belief = rig.believed(random, truth, exact, far)
@@ -164,12 +162,11 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
                 beyond, beside)
 
 
-def _with_second(first, size, form, springs, wanted):
+def _with_second(random, first, size, form, springs, wanted):
     """(Second, [(sensor, n)] of both) of a law ``form`` at one of ``springs`` beside that of a _Hiding ``first`` at a
     ``size``."""
     if not springs:
         raise ConfigError(f"trial: {form}", "another spring", "a rig of one", "draw another seed")
-    random = np.random.default_rng([first.seed, 23])
     second = replace(first, piece=PIECES[form], form=form, index=int(random.choice(springs)),
                      shape=tuple(map(float, random.uniform(size=3))))
     own, alone = second.sized(wanted)
@@ -179,7 +176,7 @@ def _with_second(first, size, form, springs, wanted):
     if min(left, first.nominal.left(seen[:-1], first.noise)) < LEAST or _reach(seen, first.nominal.base) > _REACH:
         raise ConfigError(f"trial: {form}", "two laws that are both seen, within the reach of the rig", "others",
                           "draw another seed")
-    return Second(form, second.piece.name, second.index, own, left, second.told(own)), seen
+    return Second(second.piece.name, second.index, left, second.told(own)), seen
 
 
 def _beside_a_moved_wall(piece, layout):
@@ -255,9 +252,8 @@ def _sensors(random, bodies, way, rate):
 
 @dataclass(frozen=True)
 class _Hiding:
-    """How a piece or fault is put into a bench of a ``seed``, and how large."""
+    """How a piece or fault is put into a bench, and how large."""
 
-    seed: int
     bench: _Bench
     nominal: Recalibration
     bare: list
