@@ -26,11 +26,14 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
     of the disc); every number in this report is read from a product or from the settings.
     """
     from pipeline.views.chapters.chapter import Look
-    from pipeline.views.pages.report import page, plan
+    from pipeline.views.pages.report import LONGEST, page, plan
     from pipeline.views.pages.summary import verdict
     from pipeline.views.pages.verdict_file import verdict_text
 
     look = Look(settings.dots_per_inch, settings.mode_pictures)
-    chapters = [chapter for chapter in context.map(call, plan(products, look), "chapters") if chapter is not None]
+    planned = plan(products, look)
+    order = sorted(planned, key=lambda name: name != LONGEST)
+    made = dict(zip(order, context.map(call, [planned[name] for name in order], "chapters"), strict=True))
+    chapters = [made[name] for name in planned if made[name] is not None]
     return Report(html=page(chapters, products, context.case, look),
                   verdict=verdict_text(verdict(products, ()), products))

@@ -1,6 +1,7 @@
 """Stage structure: finite-element models of the bodies of the brake; real modes, joints, contacts and preload."""
 
 from functools import partial
+from operator import call
 from typing import Literal
 
 import numpy as np
@@ -116,7 +117,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
         brake = softened(brake, left)
     for note in said:
         context.log(note)
-    free, *modes = _all_modes(brake, settings, context)
+    condensed, (free, *modes) = _solved(brake, settings, context)
     bodies = {name: body_product(body, *results)
               for name, body, results in zip(brake.names, brake.bodies, modes, strict=True)}
     others = {name: bodies.pop(name) for name in brake.names if name in OTHERS}
@@ -126,7 +127,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
         body_name=brake.names, **bodies, others=others, mesh_note=said, mesh_given=given(settings),
         free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
-        **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
+        **_preload(brake, law, settings, condensed), law_closure=law[0], law_pressure=law[1],
         lining_exponent=settings.pad.lining_pressure_exponent, lining_pressure=settings.pad.lining_pressure,
         piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake, settings.piston))
 
@@ -141,11 +142,23 @@ def _fluid(brake, piston):
     return {name: np.full(count, value) for name, value in each.items()}
 
 
-def _all_modes(brake, settings, context):
-    """(frequency, shape (3n, m)) of the free disc without rigid motions, then of the bodies on their supports."""
+def _solved(brake, settings, context):
+    """([what ``_condensed`` says at each pressure], [(frequency, shape (3n, m)) of the free disc without rigid motions,
+    then of the bodies on their supports]), side by side."""
+    stiffer = _stiffer(settings)
+    linings = [partial(_condensed, softened(brake, times), context.solver) for times in dict.fromkeys(stiffer)]
     tasks = [(brake.bodies[0], None, settings.free_frequency_max)]
     tasks += [(body, body.supported, settings.frequency_max) for body in brake.bodies]
-    return context.map(partial(_modes, context.solver), tasks, "real modes")
+    bodies = [partial(_modes, context.solver, task) for task in tasks]
+    results = context.map(call, linings + bodies, "real modes, compliance of the contacts")
+    condensed = dict(zip(dict.fromkeys(stiffer), results, strict=False))
+    return [condensed[times] for times in stiffer], results[len(linings):]
+
+
+def _stiffer(settings):
+    """Moduli of the linings at each pressure, over the stated ones."""
+    pad = settings.pad
+    return [float((pressure / pad.lining_pressure) ** pad.lining_pressure_exponent) for pressure in settings.pressures]
 
 
 def _modes(solver, task):
@@ -163,15 +176,10 @@ def _law(friction_map, settings):
     return contact_law(friction_map.pressure, stiffness, _LAW_RANGE * max(settings.pressures))
 
 
-def _preload(brake, law, settings, context):
+def _preload(brake, law, settings, condensed):
     """Contact force, stiffness and status at every pressure, each with the linings as stiff as they are there."""
-    pad, condensed, preloads = settings.pad, {}, []
-    for pressure in settings.pressures:
-        times = float((pressure / pad.lining_pressure) ** pad.lining_pressure_exponent)
-        if times not in condensed:
-            condensed[times] = _condensed(softened(brake, times), context.solver)
-        compliance, closure = condensed[times]
-        preloads.append(solve_preload(compliance, pressure * closure, brake.contacts.area, *law))
+    preloads = [solve_preload(compliance, pressure * closure, brake.contacts.area, *law)
+                for pressure, (compliance, closure) in zip(settings.pressures, condensed, strict=True)]
     return {"pressure": settings.pressures, "preload": [f.force for f in preloads],
             "contact_stiffness": [f.stiffness for f in preloads], "closed": [f.closed.astype(int) for f in preloads]}
 

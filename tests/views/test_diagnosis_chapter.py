@@ -153,7 +153,7 @@ def test_pictures_are_the_same_twice_and_follow_the_product():
 
 def test_the_page_begins_with_the_held_out_run_under_all_models_and_the_map():
     shown = {"diagnosis": diagnosis(), "bench": bench()}
-    text = page([build() for build in plan(shown, Look())], shown, products.case(), Look())
+    text = page([build() for build in plan(shown, Look()).values()], shown, products.case(), Look())
     assert 'id="bench"' in text and 'id="diagnosis"' in text and "Mismatch map" in text
     first = text[:text.index('id="bench"')]
     assert "Run pulses (held out): measured, nominal, recalibrated and completed" in first, "seen at once"

@@ -48,7 +48,7 @@ def test_the_page_and_the_file_hold_both_chapters():
                       speed_power=[0], friction_power=[0])
     products = {"matrices": Matrices(size=1, node=[], direction=[], reference_speed=1.0, terms={"M": term}),
                 "matrix_modes": modes()}
-    chapters = [write() for write in plan(products, Look(dpi=60))]
+    chapters = [write() for write in plan(products, Look(dpi=60)).values()]
     assert [c.anchor for c in chapters] == ["matrices", "matrix_modes"] and len(chapters[1].blocks) == 2
     text = verdict_text(verdict(products, ()), products)
     assert '"squeal_can_start": true' in text and '"Q": 90.0' in text

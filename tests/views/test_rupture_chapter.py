@@ -42,6 +42,6 @@ def test_what_did_not_happen_is_said():
 
 def test_the_page_opens_with_the_outcome():
     products = {"rupture": small.rupture()}
-    html = page([build() for build in plan(products, LOOK)], products, CaseSummary(name="rupture"), LOOK)
+    html = page([build() for build in plan(products, LOOK).values()], products, CaseSummary(name="rupture"), LOOK)
     assert f"<h1>{headline(small.rupture())}</h1>" in html and '<section id="rupture">' in html
     assert "ill-posed" in html and "Table 2 of the paper contradicts itself" in html

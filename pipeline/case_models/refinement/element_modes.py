@@ -11,6 +11,7 @@ from pipeline.physics.numerics.memory import refuse_beyond_memory
 from pipeline.physics.numerics.sparse_solver import factorise, refactorise
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint
 from pipeline.physics.sliding.unreduced_equilibrium import Solutions, sliding_on_elements
 from pipeline.systems.disc_brake import build, moduli_left, softened
 
@@ -71,12 +72,12 @@ def element_modes(section, point, starts, matrices: BodyMatrices, tolerance: flo
     sliding = sliding_on_elements(model, load, starts.law, starts.friction, starts.closure[nearest],
                                   Solutions(matrices.solver), settings.centrifugal)
     friction = sliding.friction if settings.friction_slopes else FrictionState(sliding.friction.coefficient)
-    operator = model_about(model, sliding.contact, settings.damping_speed).linearised(
-        friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
+    about = model_about(model, sliding.contact, settings.damping_speed)
     motion = starts.motion[:, nearest].reshape(-1, len(starts.root))
-    rows = scipy.sparse.vstack((model.contacts.normal, model.contacts.tangent, model.contacts.lateral), format="csr")
-    return ElementModes(*_followed(operator, starts.root, motion, rows, matrices.solver, tolerance), count,
-                        len(nearest))
+    search = _Search(about.linearised(friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal),
+                     SharedOperator.of(about, settings.gyroscopic, settings.centrifugal),
+                     SlidingPoint.of(about, friction, settings.friction_damping), matrices.solver, tolerance)
+    return ElementModes(*search.followed(starts.root, motion), count, len(nearest))
 
 
 def _nearest(contacts, starts):
@@ -88,22 +89,48 @@ def _nearest(contacts, starts):
     return chosen
 
 
-def _followed(operator, sought, motion, rows, solver, tolerance):
-    """(root (g,), likeness (g,)) of modes ``sought`` (g,) by rising frequency."""
-    (mass, damping, stiffness), factor = operator, None
-    root, likeness = np.full(len(sought), complex(np.nan, np.nan)), np.zeros(len(sought))
-    for group in families(sought.imag):
-        target = _BESIDE * 1j * np.sqrt(sought[group[0]].imag * sought[group[-1]].imag)
-        matrix = (target**2 * mass + target * damping + stiffness).tocsr()
-        factor = refactorise(factor, matrix) if factor else factorise(matrix, solver, symmetric=False, single=True)
-        found = followed_roots(operator, _in_double(factor), sought[group], rows.T @ motion[:, group], rows,
-                               motion[:, group], tolerance)
-        root[group], likeness[group] = found.root, found.likeness
-    return root, likeness
+class _Search:
+    """Modes of a brake about steady sliding at a SlidingPoint, by its ``operator`` (M, C, K) and as SharedOperator.
 
+    Families are searched with the factor of the symmetric part of T(s0), a third of the work of one of T(s0) itself,
+    which those have in which a mode was not found.
+    """
 
-def _in_double(factor):
-    return lambda b: factor.solve(b).astype(complex)
+    def __init__(self, operator, shared, point, solver, tolerance):
+        self._operator, self._shared, self._point = operator, shared, point
+        self._solver, self._tolerance, self._factor = solver, tolerance, None
+
+    def followed(self, sought, motion):
+        """(root (g,), likeness (g,)) of modes ``sought`` (g,) by rising frequency, whose contacts move by ``motion``
+        (3c, g)."""
+        root, likeness = np.full(len(sought), complex(np.nan, np.nan)), np.zeros(len(sought))
+        for group in families(sought.imag):
+            target = _BESIDE * 1j * np.sqrt(sought[group[0]].imag * sought[group[-1]].imag)
+            task = sought[group], motion[:, group]
+            found = self._found(self._symmetric(target), *task)
+            if np.isnan(found.root).any():
+                self._factor = None         # its memory goes before that of the larger one
+                found = self._found(self._whole(target), *task)
+            root[group], likeness[group] = found.root, found.likeness
+        return root, likeness
+
+    def _found(self, factor, sought, motion):
+        modes = zip(sought, motion.T, strict=True)
+        forces = np.stack([self._shared.drawn(self._point, *mode) for mode in modes], axis=1)
+        forces = np.where(forces.any(axis=0), forces, self._shared.rows.T @ motion)
+        return followed_roots(self._operator, lambda b: factor.solve(b).astype(complex), sought, forces,
+                              self._shared.rows, motion, self._tolerance)
+
+    def _symmetric(self, target):
+        matrix = self._shared.symmetric(self._point, target)
+        self._factor = (refactorise(self._factor, matrix) if self._factor
+                        else factorise(matrix, self._solver, single=True))
+        return self._factor
+
+    def _whole(self, target):
+        mass, damping, stiffness = self._operator
+        return factorise((target**2 * mass + target * damping + stiffness).tocsr(), self._solver, symmetric=False,
+                         single=True)
 
 
 def families(frequency):

@@ -1,9 +1,9 @@
 """Modes of large sparse systems from what they are like: roots and vectors of T(s) x = (s^2 M + s C + K) x = 0 nearby.
 
-Modes of about one frequency share a factor of T(s0) in single precision and a search space V (nonlinear Arnoldi; H.
-Voss, BIT 44 (2004) 387):
+Modes of about one frequency share a factor of S, which is T(s0) or its symmetric part, in single precision, and a
+search space V (nonlinear Arnoldi; H. Voss, BIT 44 (2004) 387):
 
-    V = [T(s0)^-1 f],    V^H T(theta) V y = 0,    V <- [V, T(s0)^-1 T(theta) V y],
+    V = [S^-1 f],    V^H T(theta) V y = 0,    V <- [V, S^-1 T(theta) V y],
 
 f being forces that move the system much as each mode does. Of the pairs (theta, V y) the one counts as the mode sought
 that moves most like it; residuals are those of double precision, until each meets its tolerance.
@@ -47,7 +47,7 @@ def followed_roots(matrices: tuple, solve: Callable, sought: np.ndarray, forces:
                    motion: np.ndarray, tolerance: float) -> Followed:
     """Followed modes of one family.
 
-    ``matrices``: sparse (M, C, K), complex ones allowed; ``solve(b)``: T(s0)^-1 b, about; ``sought`` (g,) 1/s roots of
+    ``matrices``: sparse (M, C, K), complex ones allowed; ``solve(b)``: S^-1 b, about; ``sought`` (g,) 1/s roots of
     another model, ``forces`` (n, g) that move the system like their modes, ``motion`` (r, g) of these along the sparse
     ``rows`` (r, n); ``tolerance`` of the residuals.
     """

@@ -7,10 +7,12 @@ differ in the speed W and in the coefficients D and E of the contacts alone.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
 
+from pipeline.physics.numerics.half_matrices import Half
 from pipeline.physics.numerics.orthonormal import orthonormal_beside, within
 from pipeline.physics.sliding.model import spread
 
@@ -78,14 +80,18 @@ class SharedOperator:
         coupling = point.by_place + root * point.by_speed
         return self.rows.T @ ((coupling - scipy.sparse.diags(coupling.diagonal())) @ motion)
 
-    def products(self, vectors):
-        """[A x (n, g) of every term and x of ``vectors`` (n, g)]."""
-        return [_times(matrix, vectors) for matrix, *_ in self.terms]
+    @cached_property
+    def _halves(self):
+        return [Half(matrix, -1 if tuple(powers) == _GYROSCOPIC else 1) for matrix, *powers in self.terms]
+
+    def images(self, vectors):
+        """[(A x, A^H x), each (n, g), of every term A] and x of complex ``vectors`` (n, g)."""
+        return [half.images(vectors) for half in self._halves]
 
     def forces(self, points, roots, vectors):
         """(T(s) x, K x), each (n, g) N, of motions x (n, g) at SlidingPoints and ``roots`` s (g,)."""
         whole, elastic = np.zeros_like(vectors), np.zeros_like(vectors)
-        for (_, order, power), image in zip(self.terms, self.products(vectors), strict=True):
+        for (_, order, power), (image, _) in zip(self.terms, self.images(vectors), strict=True):
             image = image * [point.speed**power for point in points]
             elastic += 0.0 if order else image
             whole += roots**order * image
@@ -121,9 +127,9 @@ class Subspace:
         part, self._count = slice(m, m + new.shape[1]), m + new.shape[1]
         self._vectors[:, part], self._moved[:, part] = new, self._operator.rows @ new
         whole = self._vectors[:, :self._count]
-        for term, small, image in zip(self._operator.terms, self._small, self._operator.products(new), strict=True):
+        for small, (image, adjoint) in zip(self._small, self._operator.images(new), strict=True):
             small[:self._count, part] = within(whole, image)
-            small[part, :m] = within(whole[:, :m], _adjoint(term, new, image)).conj().T
+            small[part, :m] = within(whole[:, :m], adjoint).conj().T
 
     def matrices(self, point):
         """(M, C, K), each (m, m), at a SlidingPoint, projected on the vectors."""
@@ -140,18 +146,3 @@ class Subspace:
     def vectors(self, weight):
         """x (n, ...)."""
         return self._vectors[:, :self._count] @ weight
-
-
-def _times(matrix, vectors):
-    """A x (n, g) of a sparse A; where it is real, with the real numbers that complex x (n, g) are made of."""
-    if np.iscomplexobj(matrix):
-        return matrix @ vectors
-    return (matrix @ np.ascontiguousarray(vectors).view(float)).view(complex)
-
-
-def _adjoint(term, vectors, image):
-    """A^H x (n, g) of a term of A and x, from the ``image`` A x where A is real."""
-    matrix, *powers = term
-    if np.iscomplexobj(matrix):
-        return (matrix @ vectors.conj()).conj()
-    return -image if tuple(powers) == _GYROSCOPIC else image

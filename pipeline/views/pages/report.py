@@ -93,12 +93,14 @@ CHAPTERS = {
     "diagnosis": (diagnosis.chapter, ()),
     "comparison": (comparison.chapter, ()),
 }
+#: the chapter whose pictures move, which takes longest
+LONGEST = "complex_modes"
 #: products without a chapter, and where the page shows what they hold
 NO_CHAPTER = {"effects": "the settings", "reduced_model": "the chapter of complex_modes", "report": "the page itself"}
 
 
 def plan(products, look):
-    """Functions without arguments, one per chapter whose product is there, in chain order.
+    """{name: function without arguments} of each chapter whose product is there, in chain order.
 
     A chapter is None where its product has nothing to say.
     """
@@ -107,8 +109,8 @@ def plan(products, look):
     def given(name):
         return published if name == _PUBLISHED else products.get(name)
 
-    return [partial(write, products[name], *map(given, others), look) for name, (write, others) in CHAPTERS.items()
-            if products.get(name) is not None]
+    return {name: partial(write, products[name], *map(given, others), look)
+            for name, (write, others) in CHAPTERS.items() if products.get(name) is not None}
 
 
 def page(chapters, products, case, look):

@@ -10,7 +10,7 @@ from tests.views import products_for_views as small
 
 def test_chapters_stand_in_the_order_of_the_chain():
     products = {"interface_law": small.interface_law(), "pin_on_disc": small.pin_on_disc(), "lock_in": small.lock_in()}
-    assert [build().anchor for build in plan(products, Look())] == ["interface_law", "pin_on_disc", "lock_in"]
+    assert [build().anchor for build in plan(products, Look()).values()] == ["interface_law", "pin_on_disc", "lock_in"]
 
 
 def test_interface_law_tells_friction_and_source():
