@@ -2,6 +2,7 @@
 
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 from pipeline import __version__
@@ -27,6 +28,7 @@ class EarlyPages:
         self._job, self._context, self._say = job, context, say
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
         self._done, self._lock = set(), threading.Lock()
+        self._writer, self._page = ThreadPoolExecutor(1), None      # pages are made beside the stage that follows
 
     def open(self, states):
         """The first look, beside the first stages, unless the planned ``states`` compute no complex modes or the case
@@ -35,12 +37,17 @@ class EarlyPages:
             self._try(self._look)
 
     def follow(self, stage, computed=True):
-        """A page after ``stage``, if it was ``computed`` and changed the answer, and others may change it again."""
+        """A page after ``stage``, if it was ``computed`` and changed the answer, and others may change it again.
+
+        It is there before this is called for the stage after it, so that none is written after that of the report.
+        """
+        if self._page:
+            self._page.result()
         with self._lock:
             self._done.add(stage.name)
         coming = [name for name in self._stages if name not in self._done]
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
-            self._try(lambda: self._follow(coming[:-1]))
+            self._page = self._writer.submit(self._try, partial(self._follow, frozenset(self._done), coming[:-1]))
 
     def _look(self):
         changes = coarse(self._job.case.sections)
@@ -54,6 +61,10 @@ class EarlyPages:
         else:
             looked(partial(*task))
 
+    def close(self):
+        """Wait for the page that is being made."""
+        self._writer.shutdown()
+
     def _looked(self, run, last, ended):
         """Tell what a ``run`` found up to the stage ``last``, unless the answer itself is there; ``ended()`` raises
         what went wrong."""
@@ -66,10 +77,10 @@ class EarlyPages:
             if last.name not in self._done:
                 self._show(*told)
 
-    def _follow(self, ahead):
+    def _follow(self, done, ahead):
         from pipeline.views.pages.early import later_page
 
-        outputs = {name: stage.output for name, stage in self._stages.items() if name in self._done}
+        outputs = {name: stage.output for name, stage in self._stages.items() if name in done}
         products = Products({name: lambda output=output: store.read(output, self._job.path(output))
                              for name, output in outputs.items()})
         self._show(*later_page(products, self._card(), ahead))

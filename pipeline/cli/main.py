@@ -110,7 +110,7 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     if dry_run:
         _show_plan(job.plan(first, last, frozenset(force)))
         return
-    work = executors.choose(workers or os.cpu_count() or 1, scheduler)
+    work, early = executors.choose(workers or os.cpu_count() or 1, scheduler), None
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
         early = EarlyPages(job, context, click.echo) if first is None and last is None else None
@@ -122,6 +122,8 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
         raise
     finally:
         work.close()
+        if early:
+            early.close()
     if not computed:
         click.echo(f"nothing to compute: everything asked for is up to date in {job.folder}")
     elif (job.folder / "report.html").exists() and (last in (None, "report")):

@@ -1,6 +1,7 @@
 """What a reader learns while a chain runs; what goes wrong there leaves the run as it is."""
 
 import re
+import threading
 from concurrent.futures import Future
 from types import SimpleNamespace
 
@@ -55,6 +56,7 @@ def test_a_first_look_then_a_page_after_each_stage_that_changes_the_answer(produ
     early.open(job.planned("complex_modes"))
     for stage in job.stages:
         early.follow(stage)
+    early.close()
     assert [name for _, name, _ in job.pages] == ["report.html"] * 3 and len(said) == 3
     assert "First look" in said[0] and "convergence: being computed" in said[1] and "Converged" in job.pages[2][2]
     assert all(re.match(r"after \d+ s: ", line) for line in said)
@@ -80,6 +82,7 @@ def test_a_look_that_fails_is_one_line_and_no_page(products, monkeypatch):
     assert not job.pages
     early.follow(job.stages[0], computed=False)
     early.follow(job.stages[1])
+    early.close()
     assert len(job.pages) == 1
 
 
@@ -98,6 +101,7 @@ def test_a_look_beside_the_first_stages_is_told_when_it_is_done_unless_the_answe
     early, said, future = begun(job)
     for stage in job.stages[:done]:
         early.follow(stage)
+    early.close()
     before = len(said)
     future.set_result([])
     assert ["First look" in line for line in said[before:]] == [True] * said_first
@@ -116,12 +120,27 @@ def test_a_stage_that_is_done_after_later_ones_changes_their_page(products, monk
     early, said = opened(job)
     for k in (0, 1, 3):
         early.follow(job.stages[k], computed=bool(k))
+    early.close()
     assert len(said) == 1 and said[0].endswith("Being computed: convergence, comparison.")
     job.stages.insert(4, SimpleNamespace(name="squeal", output="squeal"))
     early, said = opened(job)
     for k in (0, 1, 3, 2):
         early.follow(job.stages[k], computed=bool(k))
+    early.close()
     assert len(said) == 2 and said[1].endswith("Being computed: squeal.")
+
+
+def test_a_page_is_there_before_the_next_stage_is_done(products, monkeypatch):
+    """So that none is written after that of the report."""
+    job, order, later = Job(), [], threading.Event()
+    early, _ = opened(job)
+    monkeypatch.setattr(job, "announce", lambda *page: (later.wait(10), order.append("page")))
+    early.follow(job.stages[1])
+    next_stage = threading.Thread(target=lambda: (early.follow(job.stages[-2], computed=False), order.append("stage")))
+    next_stage.start()
+    later.set()
+    next_stage.join()
+    assert order == ["page", "stage"]
 
 
 def test_the_names_are_those_of_stages():

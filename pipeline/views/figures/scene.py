@@ -7,6 +7,7 @@ and VTK's own messages, away from the chain; the report then says that it has no
 import pickle
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,8 @@ CELLS = {"hexahedron": (8, "HEXAHEDRON"), "hexahedron20": (20, "QUADRATIC_HEXAHE
 #: kinds of a mixed body, whose shorter cells repeat their first vertex
 _MIXED = ("tetra10", "wedge15", "hexahedron20")
 
+#: so many scenes are drawn by so many processes
+_MANY, _SIDE_BY_SIDE = 4, 2
 #: ms that one period of an animation takes
 _PERIOD = 1600
 
@@ -53,6 +56,16 @@ def render(scenes):
     """PNG bytes of each scene, WebP of those with frames, or None where this machine cannot draw (no OpenGL)."""
     if not scenes:
         return []
+    count = _SIDE_BY_SIDE if len(scenes) >= _MANY else 1
+    with ThreadPoolExecutor(count) as threads:
+        parts = list(threads.map(_rendered, (scenes[k::count] for k in range(count))))
+    if None in parts:
+        return None
+    return [parts[k % count][k // count] for k in range(len(scenes))]
+
+
+def _rendered(scenes):
+    """``render`` in one process."""
     child = subprocess.run([sys.executable, "-P", "-m", "pipeline.views.figures.scene"], input=pickle.dumps(scenes),
                            capture_output=True, env=of_children(), check=False)
     if child.returncode in (-11, -6, 139, 134):
