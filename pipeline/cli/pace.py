@@ -14,14 +14,16 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
+import numpy as np
+
 from pipeline.case_models.early.memory import peak_memory
 from pipeline.case_models.early.reference_pace import NEAR, Reference, measured
 from pipeline.case_models.early.work import work
 from pipeline.environment import user_folder
 from pipeline.physics.numerics.memory import available_memory
 
-#: notes of a stage that are kept; shorter times are not (s)
-_KEPT, _SHORTEST = 5, 0.5
+#: notes of a stage that are kept, of one size and in all; shorter times are not (s)
+_KEPT, _MOST, _SHORTEST = 5, 40, 0.5
 #: measures within this factor are those of the same case: their notes count before all others
 _SAME = 1.1
 #: shorter runs are not forecast (s)
@@ -108,7 +110,9 @@ class Pace:
     def _keep(self, key, note):
         """Add a note to the file, which other runs may have changed since."""
         notes = _read(self._path)
-        notes[key] = [*notes.get(key, []), note][-_KEPT:]
+        alike = [each for each in notes.get(key, []) if 1 / _SAME < each.work / note.work < _SAME]
+        others = [each for each in notes.get(key, []) if each not in alike]
+        notes[key] = [*others, *alike[1 - _KEPT:], note][-_MOST:]
         self._notes, partial = notes, self._path.with_name(f".pace.{os.getpid()}")
         with suppress(OSError):
             self._path.parent.mkdir(parents=True, exist_ok=True)
@@ -155,15 +159,16 @@ class Pace:
         return here / there if there and here else size / work
 
     def _slower(self):
-        """Time that this machine takes over that of the reference: by the stages that have run here, in the median, or
-        by a measurement of the processor, which is kept."""
+        """Time that this machine takes over that of the reference: that of half of all seconds that stages have taken
+        here, or by a measurement of the processor, which is kept."""
         ratios = []
         for stage in _LONG:
             for note in self._notes.get(self._key(stage), []):
                 there = self._reference.seconds(stage, note.work, self._workers)
-                ratios += [note.seconds / there] if there else []
+                ratios += [(note.seconds / there, note.seconds)] if there else []
         if ratios:
-            return median(ratios)
+            ratio, seconds = np.array(sorted(ratios)).T     # what takes two seconds is mostly starting
+            return float(ratio[np.searchsorted(np.cumsum(seconds), sum(seconds) / 2)])
         if _PROCESSOR not in self._notes:
             self._keep(_PROCESSOR, Note(1.0, measured(), 0.0))
         return (self._notes[_PROCESSOR][-1].seconds / self._reference.processor) ** _TOLD

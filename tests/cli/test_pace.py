@@ -79,6 +79,22 @@ def test_times_of_another_size_grow_as_those_of_the_reference_do(monkeypatch, tm
     assert larger._seconds("probability") == pytest.approx(2 * 60), "in proportion where it says nothing"
 
 
+def test_runs_of_a_few_elements_say_little(monkeypatch, tmp_path, clock):
+    """They neither push out the notes of a larger case nor say how fast the machine is: they mostly start."""
+    table = {"structure": [[0.01, 0.2, 0.0], [1.0, 60.0, 0.0]], "probability": [[1.0, 80.0, 0.0]]}
+    large = made(monkeypatch, tmp_path, stages=table)
+    clock.time += 60.0
+    large.note(state("structure"), 60.0)
+    small = made(monkeypatch, tmp_path, measure=0.01, stages=table)
+    for _ in range(7):
+        small.begin()
+        clock.time += 2.0
+        small.note(state("structure"), 2.0)
+    again = made(monkeypatch, tmp_path, stages=table)
+    assert again._seconds("structure") == pytest.approx(60.0)
+    assert again._seconds("probability") == pytest.approx(80.0)
+
+
 def test_what_has_not_run_is_named(monkeypatch, tmp_path, clock):
     first = made(monkeypatch, tmp_path)
     clock.time += 50.0
