@@ -80,8 +80,8 @@ class Case:
 
 @dataclass(frozen=True)
 class Second:
-    """A law hidden beside another one: its ``name``, the spring ``index``, what is ``left`` of it by itself, and its
-    values ``told``, as of ``Case``."""
+    """A law hidden beside another one: its ``name``, the spring ``index``, the least that is ``left`` of it by itself
+    and of either beside the other, and its values ``told``, as of ``Case``."""
 
     name: str
     index: int
@@ -145,7 +145,7 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
     beside = None
     if second:
         springs = [k for k in places(PIECES[second], truth) if (k != index) == apart and (k != at or way != "wall")]
-        beside, seen = _with_second(np.random.default_rng([seed, 23]), hiding, size, second, springs, wanted)
+        beside, seen = _with_second(np.random.default_rng([seed, 23]), hiding, (size, seen), second, springs, wanted)
         left = min(left, beside.left)
     far = str(random.choice([n for n in truth.names if n not in exact])) if kind == "wrong_value" else ""
     belief = rig.believed(random, truth, exact, far)
@@ -162,17 +162,18 @@ def made(seed, kind, form="", level=0.01, second="", apart=False):
                 beyond, beside)
 
 
-def _with_second(random, first, size, form, springs, wanted):
-    """(Second, [(sensor, n)] of both) of a law ``form`` at one of ``springs`` beside that of a _Hiding ``first`` at a
-    ``size``."""
+def _with_second(random, first, made, form, springs, wanted):
+    """(Second, [(sensor, n)] of both) of a law ``form`` at one of ``springs`` beside that of a _Hiding ``first``, which
+    was ``made`` (size, [(sensor, n)]); of each as much is left beside the other one as must be of it by itself."""
+    size, one = made
     if not springs:
         raise ConfigError(f"trial: {form}", "another spring", "a rig of one", "draw another seed")
     second = replace(first, piece=PIECES[form], form=form, index=int(random.choice(springs)),
                      shape=tuple(map(float, random.uniform(size=3))))
     own, alone = second.sized(wanted)
-    left = first.nominal.left(alone[:-1], first.noise)
     laws = (*first.piece.laws(first.spot, size), *second.piece.laws(second.spot, own))
     seen = first.bench.seen(first.bench.motions(laws))
+    left = min(first.nominal.left(alone[:-1], first.noise), *(first.beside(seen[:-1], other) for other in (one, alone)))
     if min(left, first.nominal.left(seen[:-1], first.noise)) < LEAST or _reach(seen, first.nominal.base) > _REACH:
         raise ConfigError(f"trial: {form}", "two laws that are both seen, within the reach of the rig", "others",
                           "draw another seed")
@@ -333,9 +334,13 @@ class _Hiding:
         return min(self._beside_mean(factor * size, seen) for factor in _NEAR_MEAN)
 
     def _beside_mean(self, size, seen):
-        mean = self.bench.seen(self.bench.motions(PIECES[MEANS[self.form]].laws(self.spot, size)))
-        beside = [b + s - m for b, s, m in zip(self.nominal.base, seen, mean, strict=False)]
-        return self.nominal.left(beside, self.noise)
+        return self.beside(seen, self.bench.seen(self.bench.motions(PIECES[MEANS[self.form]].laws(self.spot, size))))
+
+    def beside(self, seen, known):
+        """What a recalibrated nominal model leaves of what is ``seen`` more than with the laws of which ``known`` comes
+        (both [(sensor, n)])."""
+        more = [b + s - k for b, s, k in zip(self.nominal.base, seen, known, strict=False)]
+        return self.nominal.left(more, self.noise)
 
     def _tried(self, size):
         """(What is seen in all runs but the last, what of it is left); infinite where the rig goes too far."""
