@@ -28,6 +28,8 @@ _FARTHEST = 20.0
 _KEPT = 200
 #: delays of a filter after which it shows a blow no longer
 _REMEMBERED = 3
+#: share of the largest of some changes below which what is new of others is rounding
+_NEW = 1e-6
 #: parts of an interval over which a blow is averaged
 _PARTS = 64
 
@@ -147,9 +149,10 @@ class Recalibration:
             self.kept[key] = np.array([s.shown(motion, run.fine, run.time) for s in self.sensors])
         return self.kept[key]
 
-    def left(self, seen, noise):
+    def left(self, seen, noise, free=()):
         """d of what the sensors have ``seen`` [(sensor, n)] under ``noise`` (sensor,); infinite where not finite.
 
+        ``free``: [[(sensor, n)]] of which any multiples are taken off as well, such as changes of a law that is known.
         Raises ConvergenceError: what an unfinished refit leaves would count as hidden physics.
         """
         wanted = [s - b + r for s, b, r in zip(seen, self.base, self.at_rest, strict=True)]
@@ -157,9 +160,14 @@ class Recalibration:
         if not all(np.isfinite(w).all() for w in wanted):
             return np.inf
 
+        def weighed(shown):
+            return np.concatenate([(part * p).ravel() for part, p in zip(shown, per, strict=True)])
+
+        directions = _orthonormal(weighed(wanted), [weighed(each) for each in free])
+
         def residual(u):
-            parts = [((w - y) * p).ravel() for w, y, p in zip(wanted, self.shown(u), per, strict=True)]
-            return np.concatenate((*parts, u))
+            missed = weighed([w - y for w, y in zip(wanted, self.shown(u), strict=True)])
+            return np.concatenate((missed - directions @ (directions.T @ missed), u))
 
         fits = [scipy.optimize.least_squares(residual, start, x_scale="jac", xtol=1e-4, ftol=1e-4,
                                              max_nfev=_EVALUATIONS)
@@ -185,3 +193,10 @@ class Recalibration:
             tried = [np.append(k * along, rest) for k in _ALONG]
             starts.append(min(tried, key=lambda u: float(np.sum(residual(u) ** 2))))
         return [start for start in starts if start.any()]
+
+
+def _orthonormal(like, columns):
+    """(n, k) that spans ``columns`` [(n,)], none of which need be new; none of those not finite."""
+    kept = [column for column in columns if np.isfinite(column).all()]
+    vectors, sizes, _ = np.linalg.svd(np.column_stack([np.zeros_like(like), *kept]), full_matrices=False)
+    return vectors[:, sizes > _NEW * sizes[0]]

@@ -32,6 +32,8 @@ WANTED, LEAST = (25.0, 250.0), 12.0
 _TRIALS, _NEAR, _FAR, _SMALLEST = 8, 0.4, 1.2, 1e-4
 #: times as far as without what is hidden that a motion may go
 _REACH = 5.0
+#: share of its size, and of the range of its form, by which a law is changed to see what its values do
+_LITTLE = 0.03
 #: strengths over the mean of two that are tried in their place
 _NEAR_MEAN = (0.8, 0.9, 1.0, 1.1, 1.25)
 _LAYOUTS = ("single", "single", "row", "row", "bridge", "long row", "star")
@@ -173,7 +175,9 @@ def _with_second(random, first, made, form, springs, wanted):
     own, alone = second.sized(wanted)
     laws = (*first.piece.laws(first.spot, size), *second.piece.laws(second.spot, own))
     seen = first.bench.seen(first.bench.motions(laws))
-    left = min(first.nominal.left(alone[:-1], first.noise), *(first.beside(seen[:-1], other) for other in (one, alone)))
+    left = min(first.nominal.left(alone[:-1], first.noise),
+               first.beside(seen[:-1], one, first.changes(size, second.piece.laws(second.spot, own), seen[:-1])),
+               first.beside(seen[:-1], alone, second.changes(own, first.piece.laws(first.spot, size), seen[:-1])))
     if min(left, first.nominal.left(seen[:-1], first.noise)) < LEAST or _reach(seen, first.nominal.base) > _REACH:
         raise ConfigError(f"trial: {form}", "two laws that are both seen, within the reach of the rig", "others",
                           "draw another seed")
@@ -336,11 +340,19 @@ class _Hiding:
     def _beside_mean(self, size, seen):
         return self.beside(seen, self.bench.seen(self.bench.motions(PIECES[MEANS[self.form]].laws(self.spot, size))))
 
-    def beside(self, seen, known):
+    def beside(self, seen, known, changes=()):
         """What a recalibrated nominal model leaves of what is ``seen`` more than with the laws of which ``known`` comes
-        (both [(sensor, n)])."""
+        (both [(sensor, n)]), and whose values may differ by multiples of ``changes``."""
         more = [b + s - k for b, s, k in zip(self.nominal.base, seen, known, strict=False)]
-        return self.nominal.left(more, self.noise)
+        return self.nominal.left(more, self.noise, changes)
+
+    def changes(self, size, others, seen):
+        """[[(sensor, n)]]: what of that ``seen`` with this law at a ``size`` and the laws ``others`` changes where its
+        size or form do, a little."""
+        forms = [self.shape[:k] + (abs(u - _LITTLE),) + self.shape[k + 1:] for k, u in enumerate(self.shape)]
+        changed = [(self, size * (1 - _LITTLE)), *((replace(self, shape=shape), size) for shape in forms)]
+        laws = [(*hiding.piece.laws(hiding.spot, of), *others) for hiding, of in changed]
+        return [[c - s for c, s in zip(self.bench.seen(self.bench.motions(each)), seen, strict=False)] for each in laws]
 
     def _tried(self, size):
         """(What is seen in all runs but the last, what of it is left); infinite where the rig goes too far."""

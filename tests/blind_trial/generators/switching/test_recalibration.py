@@ -133,3 +133,14 @@ def test_a_start_and_a_blow_are_free():
         moved_on = [np.array([s.shown(linear(RIG, run, off), FINE, TIME) for s in SENSORS])]
         assert Recalibration(RIG, SENSORS, (run,), (), base).left(moved_on, noise) < 1.0
         assert Recalibration(RIG, SENSORS, (replace(run, free=""),), (), base).left(moved_on, noise) > 10
+
+
+def test_multiples_of_a_law_that_is_known_leave_nothing_of_it():
+    run, random = shaken(), np.random.default_rng(3)
+    base = [np.array([s.shown(linear(RIG, run), FINE, TIME) for s in SENSORS])]
+    noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    law, other = (5 * noise[:, None] * random.standard_normal(base[0].shape) for _ in range(2))
+    fit = Recalibration(RIG, SENSORS, (run,), (), base)
+    assert fit.left([base[0] + 3 * law], noise, [[law]]) < 1.0
+    both = fit.left([base[0] + 3 * law + other], noise, [[law], [2 * law]])
+    assert both == pytest.approx(fit.left([base[0] + other], noise), rel=0.05)

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from pipeline.blind_trial.generators.switching import switching_case
 from pipeline.blind_trial.generators.switching.hidden import PIECES
 from pipeline.blind_trial.generators.switching.instruments import Sensor, written
 from pipeline.blind_trial.generators.switching.rig import drawn
 from pipeline.blind_trial.generators.switching.switching_case import LEAST, _Bench, _beside_a_moved_wall, _index, made
+from pipeline.contract import ConfigError
 
 
 def test_a_control_shows_its_rig_in_noise_of_its_level():
@@ -21,6 +23,17 @@ def test_a_control_shows_its_rig_in_noise_of_its_level():
 def test_hidden_friction_leaves_what_can_be_seen():
     case = made(1, "effect", "coulomb")
     assert case.left >= LEAST and case.change > 0 and case.reach < 5 and case.name == "coulomb"
+
+
+def test_each_law_of_a_pair_is_seen_beside_the_other_one(monkeypatch):
+    """Quadratic stiffness of a body that a soft pad brakes is none, however much of it there is without the pad."""
+    pair = "effect", "cubic_stiffness", 0.01, "quadratic_damping", False
+    case = made(7, *pair)
+    assert case.second.left >= LEAST
+    beside = switching_case._Hiding.beside
+    monkeypatch.setattr(switching_case._Hiding, "beside", lambda self, seen, known, _: beside(self, known, known))
+    with pytest.raises(ConfigError, match="two laws that are both seen"):
+        made(7, *pair)
 
 
 def test_a_seed_repeats_itself():
