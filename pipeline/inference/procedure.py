@@ -18,20 +18,16 @@ from pipeline.inference import several
 from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
-from pipeline.inference.fitting.begins import begun_as
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 from pipeline.inference.fitting.refitted import NOT_BEGUN
-from pipeline.inference.fitting.refitting import Refitter, brought_on, refit_catalogue, refit_from
-from pipeline.inference.long_records import beginnings
+from pipeline.inference.fitting.refitting import Refitter, refit_catalogue, refit_from
+from pipeline.inference.long_records import beginnings, on_the_whole
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.search.score_screen import screen_catalogue
 from pipeline.inference.search.selection import Combination, merged, sets_and_parts, where_felt
-from pipeline.inference.time_budget import TimeSpentError, share, spent, within
-
-#: part of the time that goes to the beginnings of long records at most
-_BEGINNINGS = 0.6
+from pipeline.inference.time_budget import TimeSpentError, spent, within
 
 
 def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None, tell=None):
@@ -49,7 +45,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     settings, problem = settings or Settings(), problem.for_all(catalogue)
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out, tell)
     short = beginnings(problem, budget)
-    told = asked.on_the_whole(replace(asked, problem=short[0], budget=short[1]), motions) if short else None
+    told = on_the_whole(asked, replace(asked, problem=short[0], budget=short[1]), motions) if short else None
     return told or asked.diagnosed(motions)
 
 
@@ -83,41 +79,6 @@ class Asked:
                                      " spent; allow more by diagnosis.time")
         with within(np.inf):        # what it names is examined in any case
             return self.of_its_form(single)
-
-    def on_the_whole(self, shorter, motions):
-        """Diagnosis of what the beginnings of the runs, asked ``shorter``, came to; None where these mislead: what they
-        found consistent, or named, the whole of the runs calls unknown, and something else leads there, or their values
-        cannot predict it."""
-        with share(_BEGINNINGS):
-            first = shorter.diagnosed(motions)
-        try:
-            told = replace(self._as_found(first), combinations=first.combinations)
-        except BrakechainError:
-            return None
-        names = {c.name for c in first.decision.named}
-        lead = next((w.candidate.name for w in told.weighed), None)
-        misled = told.decision.verdict == "unknown" != first.decision.verdict and lead not in names
-        if misled and not spent():
-            return None
-        with within(np.inf):
-            return self.of_its_form(told.ended() if first.cut_short else told)
-
-    def _as_found(self, first):
-        """Diagnosis, by these runs, of the hypotheses that a Diagnosis ``first`` of parts of them has fitted, begun at
-        its values, and of what it overlooks."""
-        base, settings = first.base and self._as_found(first.base), self.settings
-        problem, catalogue = replace(self.problem, nominal=first.nominal), first.refits.refitter.catalogue
-        noises = tuple(self.budget[run.name] for run in problem.training)
-        fits = {i: r.fit for i, r in first.refits.results.items() if r.fit}
-        best = sorted(fits, key=lambda i: fits[i].objective)[:settings.kept]
-        with within(np.inf):        # as they are, in any case
-            null = linearised(problem, noises, first.nominal, first.null.latent, problem.training)
-            begins = {i: begun_as(problem, noises, fits[i]) for i in best}
-        null = continued(problem, null, patient=False)
-        screening = screen_catalogue(Calibration(problem, self.budget, null), catalogue, settings, self.fan_out,
-                                     base is not None)
-        refits = brought_on(screening, catalogue, begins, settings, self.fan_out)
-        return decided(refits, settings, base, first.laws)
 
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
@@ -248,10 +209,12 @@ class Asked:
             if left > self.settings.rules.decision.unexplained:
                 return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
             whole, why = asked.named_together(single, fit.latent, last, known)
-            for law in tuple(c for c in known if c.elaborate):
+            rivals = self if any(c.elaborate for c in (*known, last)) else replace(
+                self, catalogue=tuple(c for c in self.catalogue if not c.elaborate))
+            for law in tuple(known):        # each has rivals of its own
                 if whole is not None:
                     known = [*(c for c in known if c is not law), whole.named[0].candidate]
-                    whole, why = self._weighed_beside(single, whole.named[0].fit, law, known)
+                    whole, why = rivals._named_beside(single, whole.named[0].fit, law, known)
         except Exception as error:
             return None, replace(tried, outcome=sentence_of(error)), True
         if whole is None:
@@ -259,12 +222,10 @@ class Asked:
         named = (*(c.name for c in known), *(w.candidate.name for w in whole.named))
         return whole, replace(tried, effects=named, outcome="named"), True
 
-    def _weighed_beside(self, single, fit, law, known):
-        """``named_together`` of one ``law`` of those whose Fit is given, the others ``known``: what is elaborate has
-        rivals that are it nearly."""
-        names = [p.name for p in fit.hypothesis.parameters]
-        start = fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
-        return self.given(known).named_together(single, start, law, known)
+    def _named_beside(self, single, fit, law, known):
+        """``named_together`` of one ``law`` of those whose Fit is given, the others ``known``: it was taken as known
+        beside what else explained less than beside them."""
+        return self.given(known).named_together(single, _start_of(fit, single, law, known), law, known)
 
     def fitted_together(self, null, start, last):
         """Fit of the laws that are taken as known and of a Hypothesis ``last``, from latent values ``start`` of all, or
@@ -287,15 +248,19 @@ class Asked:
         return calibration, refitter.best_begun({}, {self.catalogue.index(last): [
             start, *tone_starts.starts(problem, calibration.null, last)]}, enough)
 
+    def weighed_together(self, single, start, last, known):
+        """Diagnosis of one more law beside those ``known``; arguments as of ``named_together``."""
+        calibration, results = self.begun_together(single.null, start, last)
+        screening = screen_catalogue(calibration, self.catalogue, self.settings, self.fan_out, True)
+        refits = refit_from(screening, self.catalogue, results, self.settings, self.fan_out)
+        return decided(refits, self.settings, single, len(known) + 1)
+
     def named_together(self, single, start, last, known):
         """(Diagnosis that names one more law beside those ``known`` (Hypotheses) or None, why there is none).
 
         ``last``: the one that was selected, ``start``: latent values of all; what it imitates is weighed too.
         """
-        rules, (calibration, results) = self.settings.rules.decision, self.begun_together(single.null, start, last)
-        screening = screen_catalogue(calibration, self.catalogue, self.settings, self.fan_out, True)
-        refits = refit_from(screening, self.catalogue, results, self.settings, self.fan_out)
-        whole = decided(refits, self.settings, single, len(known) + 1)
+        rules, whole = self.settings.rules.decision, self.weighed_together(single, start, last, known)
         if whole.decision.verdict != "missing":
             return None, "; ".join(whole.decision.reasons[:2])
         if second_effect.better_alone(single, whole):
@@ -309,17 +274,36 @@ class Asked:
         """The Diagnosis of a pair of a leading effect and one of ``seconds`` that matters, else ``single``."""
         for first in second_effect.leading(single, self.settings.rules):
             pair, matters = self._pair(single, first, seconds)
-            if matters:
+            why = matters and pair.decision.verdict == "missing" and self._not_told(single, first, pair)
+            if matters and not why:
                 return replace(pair, combinations=single.combinations)
             if first in single.named:
-                single = self._unless_mended(replace(single, further=pair), first)
+                single = self._unless_mended(replace(single, further=pair), first, why)
+            elif why:
+                single = single.remarked(why)
         return single
 
-    def _unless_mended(self, single, first):
-        """The Diagnosis ``single`` of a law ``first``, decided anew where what was tried beside it says that it is of
-        another form."""
+    def _not_told(self, single, first, pair):
+        """Why the ``first`` law, which a ``pair`` takes as known, is not told from others beside what that names; else
+        ''."""
+        taken = {parameter.name for parameter in pair.nominal.parameters}
+        if not taken.issuperset(parameter.name for parameter in first.candidate.parameters):
+            return ""
+        known, fit = [pair.named[0].candidate], pair.named[0].fit
+        start = _start_of(fit, single, first.candidate, known)
+        try:
+            told = self.given(known).weighed_together(single, start, first.candidate, known)
+        except BrakechainError as error:
+            return f"{first.candidate.name} beside {known[0].name}: {sentence_of(error)}"
+        if first.candidate.name in [c.name for c in told.decision.named] and told.decision.verdict == "missing":
+            return ""
+        return f"{first.candidate.name} beside {known[0].name}: {'; '.join(told.decision.reasons[:2])}"
+
+    def _unless_mended(self, single, first, why):
+        """The Diagnosis ``single`` of a law ``first``, decided anew where there is a reason ``why`` it is not told, or
+        where what was tried beside it says that it is of another form."""
         explained, rules = first.fit.betters(single.null), self.settings.rules
-        why = single.further and second_effect.mends(single.further, explained, rules)
+        why = why or (single.further and second_effect.mends(single.further, explained, rules))
         return self._objected(single, {first.candidate.name: why}) if why else single
 
     def _pair(self, single, first, seconds):
@@ -394,6 +378,12 @@ class Asked:
         weighing = told.weighing.objected(objected)
         decision = weighing.decided(several_laws.allowing(self.settings, told.laws, bool(told.nominal.effects)).rules)
         return replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
+
+
+def _start_of(fit, single, law, known):
+    """Latent values of a Fit in the order of the nominal model of ``single``, the laws ``known`` and one ``law``."""
+    names = [p.name for p in fit.hypothesis.parameters]
+    return fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
 
 
 def _not_computed(error, *_):

@@ -83,6 +83,21 @@ def test_two_effects_are_found_one_after_the_other():
     assert told.base.weighed[0].candidate.name == "cubic", "friction is a small share of the excess"
 
 
+def test_the_first_law_of_a_pair_is_told_from_others_beside_the_second(monkeypatch):
+    """Beside quadratic stiffness a slow drive did nearly what the pad that acted did; it had led alone."""
+    problem, asked = bench(5, 0.1, stiffness=380.0, extra=both), []
+
+    def untold(self, single, start, law, known):
+        asked.append((law.name, *(k.name for k in known)))
+        reasons = "these runs cannot tell cubic, quintic apart",
+        return SimpleNamespace(decision=SimpleNamespace(verdict="tie", named=[law], reasons=reasons))
+
+    monkeypatch.setattr(Asked, "weighed_together", untold)
+    told = diagnose(problem, budget(problem), CATALOGUE)
+    assert asked == [("cubic", "coulomb")] and told.decision.verdict == "unknown" and not told.named
+    assert any("cannot tell cubic, quintic apart" in reason for reason in told.decision.reasons)
+
+
 def test_a_second_effect_within_the_error_of_the_law_of_the_first_is_not_named():
     problem = bench(5, 0.1, stiffness=380.0, extra=both)
     asked = replace(Settings(), rules=changed("decision", second_share=0.2, second_at_noise=0.2))
