@@ -92,8 +92,8 @@ def _nearest(contacts, starts):
 class _Search:
     """Modes of a brake about steady sliding at a SlidingPoint, by its ``operator`` (M, C, K) and as SharedOperator.
 
-    Families are searched with the factor of the symmetric part of T(s0), a third of the work of one of T(s0) itself,
-    which those have in which a mode was not found.
+    A family is searched with the factor of the symmetric part of T(s0), a third of the work of one of T(s0) itself, and
+    with that where a mode is not found.
     """
 
     def __init__(self, operator, shared, point, solver, tolerance):

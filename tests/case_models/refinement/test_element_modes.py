@@ -8,6 +8,7 @@ import pytest
 import scipy
 
 from pipeline.case_models.full_matrices import Mode, full_modes, slid_on_elements
+from pipeline.case_models.refinement import element_modes as searched
 from pipeline.case_models.refinement.element_modes import OperatingPoint, brake_of, element_modes, families
 from pipeline.case_models.refinement.finer_settings import finer
 from pipeline.case_models.refinement.reduced_starts import Starts
@@ -57,7 +58,13 @@ def near(matrices, target, count):
 
 
 @pytest.mark.exact
-def test_modes_of_a_finer_contact_are_those_of_a_whole_search_there():
+@pytest.mark.parametrize("lost", [False, True])
+def test_modes_of_a_finer_contact_are_those_of_a_whole_search_there(monkeypatch, lost):
+    """With the symmetric factor and, where that leads nowhere, with that of the whole matrix."""
+    whole, wholes = searched._Search._whole, []
+    monkeypatch.setattr(searched._Search, "_whole", lambda self, at: (wholes.append(at), whole(self, at))[1])
+    if lost:
+        monkeypatch.setattr(searched._Search, "_symmetric", lambda *_: SimpleNamespace(solve=lambda forces: forces))
     matrices, section = BodyMatrices(SOLVER), finer(SECTION, ["contact"], 1.5)
     coarse, rows, contacts, closure = operator(SECTION, matrices)
     root, shape = near(coarse, 2j * np.pi * 1500, 3)
@@ -67,7 +74,7 @@ def test_modes_of_a_finer_contact_are_those_of_a_whole_search_there():
     starts = Starts(root, motion, contacts.position, contacts.body, closure, LAW, friction)
     made = element_modes(section, POINT, starts, matrices, 1e-9)
     exact = near(operator(section, matrices)[0], 2j * np.pi * 1500, 5)[0]
-    assert made.contacts == 36 and np.isfinite(made.root).all() and (made.likeness > 0.5).all()
+    assert bool(wholes) == lost and made.contacts == 36 and np.isfinite(made.root).all() and (made.likeness > 0.5).all()
     for found in made.root:
         assert abs(exact - found).min() < 1e-6 * abs(found)
 
