@@ -213,8 +213,10 @@ class Asked:
                 self, catalogue=tuple(c for c in self.catalogue if not c.elaborate))
             for law in tuple(known):        # each has rivals of its own
                 if whole is not None:
-                    known = [*(c for c in known if c is not law), whole.named[0].candidate]
-                    whole, why = rivals._named_beside(single, whole.named[0].fit, law, known)
+                    others = [*(c for c in known if c is not law), whole.named[0].candidate]
+                    again, why = rivals._named_beside(single, whole.named[0].fit, law, others)
+                    if again is None or again.named[0].candidate.name != law.name:
+                        whole, known = again, others
         except Exception as error:
             return None, replace(tried, outcome=sentence_of(error)), True
         if whole is None:
