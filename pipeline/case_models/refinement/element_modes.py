@@ -116,8 +116,7 @@ class _Search:
 
     def _found(self, factor, sought, motion):
         modes = zip(sought, motion.T, strict=True)
-        forces = np.stack([self._shared.drawn(self._point, *mode) for mode in modes], axis=1)
-        forces = np.where(forces.any(axis=0), forces, self._shared.rows.T @ motion)
+        forces = np.stack([self._shared.moving(self._point, *mode) for mode in modes], axis=1)
         return followed_roots(self._operator, lambda b: factor.solve(b).astype(complex), sought, forces,
                               self._shared.rows, motion, self._tolerance)
 

@@ -28,7 +28,7 @@ class Half:
         padded[:, :count] = vectors
         real, *imaginary = (self._part(part, padded)[:, :count] for part in self._parts)
         if not imaginary:
-            return real, self._sign * real
+            return real, real if self._sign == 1 else -real
         turned = 1j * imaginary[0]
         return real + turned, self._sign * (real - turned)
 

@@ -80,6 +80,12 @@ class SharedOperator:
         coupling = point.by_place + root * point.by_speed
         return self.rows.T @ ((coupling - scipy.sparse.diags(coupling.diagonal())) @ motion)
 
+    def moving(self, point, root, motion):
+        """(n,) N: forces that move the system much as a mode of which the contacts' ``motion`` (3c,) is known: those of
+        friction or, where there are none, some at the contacts that move."""
+        drawn = self.drawn(point, root, motion)
+        return drawn if drawn.any() else self.rows.T @ motion
+
     @cached_property
     def _halves(self):
         return [Half(matrix, -1 if tuple(powers) == _GYROSCOPIC else 1) for matrix, *powers in self.terms]

@@ -96,7 +96,7 @@ class _Search:
     def modes(self, guesses, tolerance):
         """[FullRoot] from Guesses, each as it is after as many rounds as are allowed and there is room for."""
         modes, left = [None] * len(guesses), list(range(len(guesses)))
-        forces = np.stack([self._begin(guess) for guess in guesses], axis=1)
+        forces = np.stack([self._operator.moving(g.point, g.root, g.motion) for g in guesses], axis=1)
         for _ in range(_ROUNDS):
             if self._space.room < len(left):
                 break
@@ -109,11 +109,6 @@ class _Search:
             if not left:
                 break
         return modes
-
-    def _begin(self, guess):
-        """Forces (n,) of a Guess: those of friction or, where there are none, some at the contacts that move."""
-        drawn = self._operator.drawn(guess.point, guess.root, guess.motion)
-        return drawn if drawn.any() else self._operator.rows.T @ guess.motion
 
     def _projected(self, guesses, before, tolerance):
         """([FullRoot of each Guess], the forces (n, g) that they leave) in the subspace as it is; ``before``: those of

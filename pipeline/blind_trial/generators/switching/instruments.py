@@ -6,6 +6,7 @@ states it.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -67,10 +68,17 @@ class Sensor:
 
 def filtered(course, step, tau):
     """A course (n,) through the Bessel filter of delay ``tau``: exact between straight lines."""
+    taps, denominator, settled = _discrete(float(step), float(tau))
+    return scipy.signal.lfilter(taps, denominator, course, zi=settled * course[0])[0]
+
+
+@lru_cache(maxsize=256)
+def _discrete(step, tau):
+    """(numerator, denominator, state of a constant 1) of the filter at instants ``step`` s apart; a case asks for a few
+    of them thousands of times."""
     numerator, denominator, _ = scipy.signal.cont2discrete(([3.0], [tau**2, 3 * tau, 3.0]), step, "foh")
     taps = numerator.ravel()
-    begin = scipy.signal.lfilter_zi(taps, denominator) * course[0]
-    return scipy.signal.lfilter(taps, denominator, course, zi=begin)[0]
+    return taps, denominator, scipy.signal.lfilter_zi(taps, denominator)
 
 
 def noise(random, count, colour):

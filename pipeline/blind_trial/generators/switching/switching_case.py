@@ -173,11 +173,11 @@ def _with_second(random, first, made, form, springs, wanted):
     second = replace(first, piece=PIECES[form], form=form, index=int(random.choice(springs)),
                      shape=tuple(map(float, random.uniform(size=3))))
     own, alone = second.sized(wanted)
-    laws = (*first.piece.laws(first.spot, size), *second.piece.laws(second.spot, own))
-    seen = first.bench.seen(first.bench.motions(laws))
+    laws, others = first.piece.laws(first.spot, size), second.piece.laws(second.spot, own)
+    seen = first.bench.seen(first.bench.motions((*laws, *others)))
     left = min(first.nominal.left(alone[:-1], first.noise),
-               first.beside(seen[:-1], one, first.changes(size, second.piece.laws(second.spot, own), seen[:-1])),
-               first.beside(seen[:-1], alone, second.changes(own, first.piece.laws(first.spot, size), seen[:-1])))
+               first.beside(seen[:-1], one, first.changes(size, others, seen[:-1])),
+               first.beside(seen[:-1], alone, second.changes(own, laws, seen[:-1])))
     if min(left, first.nominal.left(seen[:-1], first.noise)) < LEAST or _reach(seen, first.nominal.base) > _REACH:
         raise ConfigError(f"trial: {form}", "two laws that are both seen, within the reach of the rig", "others",
                           "draw another seed")
