@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 from functools import partial
+from itertools import islice
+from operator import call
 
 import numpy as np
 
@@ -48,14 +50,15 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     tasks = [(pressure, pair, offset) for pressure in settings.pressures for pair in pairs
              for offset in offsets(surface, settings)]
     shown = len(settings.pressures) // 2 * len(pairs) * settings.realisations
-    run = partial(_slide, speeds=speeds, recorded=recorded)
-    records = context.map(run, [(*task, k == shown) for k, task in enumerate(tasks)], "sliding of the rough pair")
     middle = settings.pressures[len(settings.pressures) // 2]
-    begins = context.map(partial(from_rest, pairs[0], speed=speeds[len(speeds) // 2], shares=settings.presliding),
-                         settings.pressures if settings.presliding else (),
-                         "friction from rest")
-    areas = context.map(partial(_area_on_grid, surface=surface, settings=settings, pressure=middle),
-                        settings.refinement, "convergence of the contact area")
+    finer = [partial(_area_on_grid, factor, surface, settings, middle)
+             for factor in settings.refinement[::-1]]
+    sliding = [partial(_slide, (*task, k == shown), speeds, recorded) for k, task in enumerate(tasks)]
+    rest = [partial(from_rest, pairs[0], pressure, speeds[len(speeds) // 2], settings.presliding)
+            for pressure in (settings.pressures if settings.presliding else ())]
+    found = iter(context.map(call, finer + sliding + rest, "sliding and rest of the rough pair, finer grids"))
+    areas, records, begins = (list(islice(found, len(part))) for part in (finer, sliding, rest))
+    areas = areas[::-1]     # the longest came first
     return MicroFriction(
         settings=stored(settings), pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,
         distance=np.array(recorded) * cycle_distance(settings), **_table(records, len(settings.pressures), len(pairs)),

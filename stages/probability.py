@@ -1,9 +1,10 @@
 """Stage probability: how likely unstable modes are over the declared scatter of a brake.
 
-Draws are made before the fan-out and solved in rounds: the first of the least number, each other of as many as the
-share that squeals asks for so far, so that the number of workers changes no bit. Each is solved on bases that all draws
-of one pressure share; a few are solved in the whole reduced model as well, which states the error, and for all roots on
-the common bases. All are solved at every operating point, of which each has a statement of its own.
+Draws are made before the fan-out, evenly over the space of the sources, and solved in rounds: the first of the least
+number, each other of as many as the share that squeals asks for so far, so that the number of workers changes no bit.
+Each is solved on bases that all draws of one pressure share; a few are solved in the whole reduced model as well, which
+states the error, and for all roots on the common bases. All are solved at every operating point, of which each has a
+statement of its own.
 """
 
 from dataclasses import replace
@@ -18,12 +19,12 @@ from pipeline.case_models.scatter import (
     DEFAULT,
     Source,
     check_sources,
-    draw_values,
     factors_of,
     family,
     fitting,
     friction_errors,
     law_in_words,
+    scored_values,
     stability_settings,
     standard_deviation,
 )
@@ -31,6 +32,8 @@ from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, 
 from pipeline.physics.stability.draw_statistics import (
     among_bands,
     draws_needed,
+    even_scores,
+    explained,
     first_order,
     rate_interval,
     squealing,
@@ -88,21 +91,24 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     point, each about its own steady sliding state, on bases common to all draws; {checked} of them, half
     of which the farthest from the nominal brake, were solved in the whole reduced model as well. From {least_draws}
     draws on, none were added once half the width of the interval of 'overall' was no more than {interval}.
-    Probabilities carry 95 % Wilson intervals, which speak of the number of draws only; sensitivities are first-order
-    Sobol indices of the largest growth rate.
+    Draws are those of a scrambled Sobol sequence. Probabilities carry 95 % Wilson intervals of as many independent
+    draws as have what the sources leave of the variance by a linear law; they speak of the number of draws only.
+    Sensitivities are first-order Sobol indices of the largest growth rate.
     """
     _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
     points = stability_settings(modes)
     points.speeds = selected_speeds(settings.speeds, points.speeds)
     errors = friction_errors(friction_map, points.sliding_distance)
-    values = draw_values(settings.sources, errors, settings.draws, np.random.default_rng(settings.seed))
+    scores = even_scores(settings.draws, len(settings.sources), settings.seed)
+    values = scored_values(settings.sources, errors, scores)
     drawn = [factors_of(settings.sources, row, model) for row in values]
-    others = draw_values(settings.sources, errors, settings.training, np.random.default_rng([settings.seed, 1]))
+    others = scored_values(
+        settings.sources, errors, even_scores(settings.training, len(settings.sources), [settings.seed, 1]))
     training = [NOMINAL, *(factors_of(settings.sources, row, model) for row in others)]
     families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
-    cases, modes = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
-    values = values[:len(modes)]
+    cases, modes = _solved(families, drawn, scores, training, points, settings, context) if drawn else ([], [])
+    values, scores = values[:len(modes)], scores[:len(modes)]
     scatter = [standard_deviation(s, errors) for s in settings.sources]
     checks = _checks(cases, [drawn[k] for k in _chosen(values, scatter, settings)], points)
     checked = context.map(partial(_checked, points), checks, "whole model")
@@ -111,7 +117,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         scatter=scatter, value=values, most_draws=settings.draws,
         least_draws=settings.least_draws, within=settings.interval,
         pressure=np.repeat(model.pressure, len(points.speeds)), speed=np.tile(points.speeds, len(model.pressure)),
-        **_results(modes, values, points, len(model.pressure) * len(points.speeds), settings),
+        **_results(modes, values, scores, points, len(model.pressure) * len(points.speeds), settings),
         **accuracy([whole for whole, _ in checked]), spectrum_differ=sum(differs for _, differs in checked),
         least_growth=settings.least_growth, squeal_from=points.squeal_from)
 
@@ -123,11 +129,11 @@ def _refuse_effects(effects, settings):
                           ", ".join(term.effect.name for term in terms), "set probability.draws: 0")
 
 
-def _solved(families, drawn, training, points, settings, context):
+def _solved(families, drawn, scores, training, points, settings, context):
     """(Sampled of every pressure, Growing [draw][operating point]) of as many draws as the statement needs."""
     cases = context.map(partial(_sampled, points, training, settings.smallest_correction), families, "common bases")
     few, modes = [case.compact() for case in cases], []
-    while len(modes) < (end := min(_wanted(modes, points, settings), len(drawn))):
+    while len(modes) < (end := min(_wanted(modes, scores, points, settings), len(drawn))):
         numbers = range(len(modes), end)
         chunks = [numbers[k:k + _CHUNK] for k in range(0, len(numbers), _CHUNK)]
         tasks = [(case, points.speeds, [(k, drawn[k]) for k in chunk]) for case in few for chunk in chunks]
@@ -137,13 +143,14 @@ def _solved(families, drawn, training, points, settings, context):
     return cases, modes
 
 
-def _wanted(modes, points, settings):
-    """Number of draws that say how likely squeal is at any operating point, by the ``modes`` of those made."""
+def _wanted(modes, scores, points, settings):
+    """Number of draws that say how likely squeal is at any operating point, by the ``modes`` of those made; ``scores``
+    of all."""
     made = len(modes)
     if not settings.interval or made < max(settings.least_draws, _FIRST):
         return max(settings.least_draws, _FIRST) if settings.interval else settings.draws
     hits = _hits(_unstable(modes, points, settings), (made, len(modes[0])), points).any(axis=1)
-    needed = draws_needed(hits.sum(), made, settings.interval)
+    needed = draws_needed(hits.sum(), made, settings.interval, explained(scores[:made], hits))
     return max(needed, made + _ROUND) if needed > made else made
 
 
@@ -202,7 +209,7 @@ def _hits(unstable, shape, points):
     return squealing(unstable["root"], unstable["root_draw"], unstable["root_operating"], shape, points.squeal_from)
 
 
-def _results(modes, values, points, operating, settings):
+def _results(modes, values, scores, points, operating, settings):
     """Fields of growth, unstable roots, probabilities and sensitivities."""
     count = len(modes)
     growth = np.reshape([[each.value[0].real if len(each.value) else -np.inf for each in draw] for draw in modes],
@@ -214,11 +221,13 @@ def _results(modes, values, points, operating, settings):
     hits = _hits(unstable, (count, operating), points)
     bands = np.zeros((count, len(middles), operating), bool)
     bands[draw, among_bands(root, middles), place] = True
-    anywhere, index = bands.any(axis=2), first_order(values, growth.max(axis=1), settings.seed)
+    squeals, anywhere = hits.any(axis=1)[:, None], bands.any(axis=2)
+    index = first_order(values, growth.max(axis=1), settings.seed)
     return {
         **unstable, "growth": growth, "whole_spectra": sum(each.whole for draw in modes for each in draw),
-        "probability": _share(hits), "interval": _intervals(hits), "overall": _share(hits.any(axis=1)[:, None])[0],
-        "overall_interval": _intervals(hits.any(axis=1)[:, None])[0], "band": middles,
+        "probability": _share(hits), "interval": _intervals(hits, scores), "overall": _share(squeals)[0],
+        "overall_interval": _intervals(squeals, scores)[0], "explained": explained(scores, squeals[:, 0]),
+        "band": middles,
         "band_probability": _share(bands), "band_any": _share(anywhere), "band_interval": _intervals(anywhere),
         "sensitivity": index[0], "sensitivity_error": index[1], "trend": index[2]}
 
@@ -228,5 +237,7 @@ def _share(hits):
     return hits.mean(axis=0) if len(hits) else np.zeros(hits.shape[1:])
 
 
-def _intervals(hits):
-    return np.array([rate_interval(n, len(hits)) for n in hits.sum(axis=0)])
+def _intervals(hits, scores=None):
+    """(k, 2) of the columns of ``hits`` (d, k); with ``scores``, less wide by what these explain."""
+    shares = [0.0 if scores is None else explained(scores, column) for column in hits.T]
+    return np.array([rate_interval(n, len(hits), share) for n, share in zip(hits.sum(axis=0), shares, strict=True)])

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 from typing import Literal
 
 import numpy as np
+import scipy
 
 from pipeline.case_models.steady_sliding import mapped_friction, stated_friction
 from pipeline.contract import ConfigError, Section, option
@@ -106,18 +107,22 @@ class FrictionErrors:
 
 
 def draw_values(sources, errors, count, rng):
-    """(count, s): factors of the Sources, or additions to friction; those of the map go together as its FrictionErrors
-    say."""
-    columns = []
-    for source in sources:
+    """(count, s): values of the Sources, each draw independent of the others; as of ``scored_values``."""
+    return scored_values(sources, errors, np.reshape([rng.standard_normal(count) for _ in sources], (-1, count)).T)
+
+
+def scored_values(sources, errors, scores):
+    """(n, s): factors of the Sources, or additions to friction, by their standard normal ``scores`` (n, s); those of
+    the map go together as its FrictionErrors say."""
+    values = np.array(scores, float).T
+    for k, source in enumerate(sources):
         if source.kind in ADDITIONS:
-            columns.append(rng.standard_normal(count))
-        elif source.distribution == "uniform":
-            columns.append(rng.uniform(*source.range, count))
+            continue
+        if source.distribution == "uniform":
+            values[k] = source.range[0] + np.diff(source.range) * scipy.special.ndtr(values[k])
         else:
             middle, width = _lognormal(source)
-            columns.append(np.exp(middle + width * rng.standard_normal(count)))
-    values = np.reshape(columns, (len(sources), count))
+            values[k] = np.exp(middle + width * values[k])
     mapped = [k for k, source in enumerate(sources) if source.kind in ADDITIONS and source.variation is None]
     values[mapped] = errors.root([sources[k].kind for k in mapped]) @ values[mapped]
     for k, source in enumerate(sources):

@@ -84,7 +84,7 @@ class Convergence:
     converged: Array = count("", "1 if everything is refined and all unstable modes stay within the tolerances")
 
 
-@product(version=5)
+@product(version=6)
 class Probability:
     """Unstable modes over the scatter of a brake: seeded draws, and what they say of each operating point."""
 
@@ -104,9 +104,10 @@ class Probability:
     root_residual: Array = quantity("1/s", "root", "residual of each in the model on the common bases, over the slope of its matrix")
     whole_spectra: Array = count("", "draws and operating points that were solved by all roots on the common bases, as a few did not serve")
     probability: Array = quantity("1", "operating", "share of the draws that squeal: with an unstable mode from squeal_from on")
-    interval: Array = quantity("1", "operating end", "95 % Wilson interval of it")
+    interval: Array = quantity("1", "operating end", "95 % Wilson interval of it, see explained")
     overall: Array = quantity("1", "", "share of the draws that squeal at any operating point")
-    overall_interval: Array = quantity("1", "end", "95 % Wilson interval of it")
+    overall_interval: Array = quantity("1", "end", "95 % Wilson interval of it, see explained")
+    explained: Array = quantity("1", "", "share of the variance of what squeals that is linear in the scores of the sources, which even draws do not leave to chance and the two intervals leave out")
     band: Array = quantity("Hz", "band", "middles of the 1/3 octave bands, IEC 61260")
     band_probability: Array = quantity("1", "band operating", "share of the draws with an unstable mode in the band")
     band_any: Array = quantity("1", "band", "the same at any operating point")

@@ -378,7 +378,7 @@ def probability(draws=60):
         within=0.05, whole_spectra=3, root_residual=np.full(len(draw), 2e-4), spectrum_differ=0,
         pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, growth=growth, root_draw=draw, root_operating=operating,
         root=growth[draw, operating] + 50e3j, probability=share, interval=np.clip(share[:, None] + ends, 0, 1),
-        overall=share.max(), overall_interval=np.clip(share.max() + ends, 0, 1), band=band,
+        overall=share.max(), overall_interval=np.clip(share.max() + ends, 0, 1), explained=0.3, band=band,
         band_probability=np.where(abs(band / 8e3 - 1) < 0.3, 1.0, 0.0)[:, None] * share,
         band_any=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0),
         band_interval=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0)[:, None] + 0.01 * ends[1:] * [0, 1],

@@ -1,4 +1,4 @@
-"""What draws of a scattered system say: rates with intervals, frequency bands, first-order sensitivities."""
+"""Draws of a scattered system, and what they say: rates with intervals, frequency bands, first-order sensitivities."""
 
 import numpy as np
 import scipy
@@ -6,23 +6,58 @@ import scipy
 #: fewest draws of a bin of the first-order index, and most bins
 _PER_BIN, _MOST_BINS = 20, 20
 _RESAMPLES = 200
+#: standard deviations to each side of 95 % of a normal distribution
+_SIDES = scipy.special.ndtri(0.975)
+#: least probability that a score stands for
+_LEAST = 1e-9
+#: fewest draws of each coefficient of a regression
+_PER_COEFFICIENT = 5
 
 
-def rate_interval(hits, count):
-    """(low, high) of the 95 % interval of a rate (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209)."""
+def even_scores(count, sources, seed):
+    """(count, sources) scores, each source standard normal: quasi-random draws, which fill the space more evenly than
+    independent ones (A. B. Owen's scrambling of Sobol's sequence, J. Complexity 14 (1998) 466). The first of more draws
+    are those of fewer."""
+    if not count or not sources:
+        return np.empty((count, sources))
+    sequence = scipy.stats.qmc.Sobol(sources, scramble=True, rng=np.random.default_rng(seed))
+    share = sequence.random_base2(max(count - 1, 1).bit_length())[:count]
+    return scipy.special.ndtri(np.clip(share, _LEAST, 1 - _LEAST))
+
+
+def explained(scores, hits):
+    """Share of the variance of ``hits`` (n,) that is linear in ``scores`` (n, s), adjusted for the number of sources.
+
+    Draws of ``even_scores`` do not leave that share of a rate to chance; it is that of n / (1 - share) independent
+    draws, or closer. 0 for few draws, or hits that do not vary.
+    """
+    hits, (count, sources) = np.asarray(hits, float), np.shape(scores)
+    if count < _PER_COEFFICIENT * (sources + 1) or not np.ptp(hits) > 0:
+        return 0.0
+    terms = np.column_stack((np.ones(count), scores))
+    left = hits - terms @ np.linalg.lstsq(terms, hits, rcond=None)[0]
+    return max(1 - (left @ left / (count - sources - 1)) / hits.var(ddof=1), 0.0)
+
+
+def rate_interval(hits, count, share=0.0):
+    """(low, high) of the 95 % interval of a rate (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209); ``share`` of its
+    variance as of ``explained``."""
     if not count:
         return 0.0, 1.0
-    interval = scipy.stats.binomtest(int(hits), int(count)).proportion_ci(0.95, "wilson")
-    return float(interval.low), float(interval.high)
+    rate, alike = hits / count, count / (1 - share)
+    middle, half = (rate + _SIDES**2 / (2 * alike)) / (1 + _SIDES**2 / alike), _half_width(rate, alike)
+    return max(float(middle - half), 0.0), min(float(middle + half), 1.0)
 
 
-def draws_needed(hits, count, within):
+def _half_width(rate, count):
+    return _SIDES * np.sqrt(rate * (1 - rate) / count + (_SIDES / (2 * count)) ** 2) / (1 + _SIDES**2 / count)
+
+
+def draws_needed(hits, count, within, share=0.0):
     """Least number of draws, no less than the ``count`` (above 0) that had so many ``hits``, at which half the width of
-    the 95 % interval of the same rate is no more than ``within`` (above 0)."""
-    sides = scipy.special.ndtri(0.975)      # standard deviations to each side of 95 %
-    rate, more = hits / count, np.arange(count, count + int((sides / within) ** 2) + 2)
-    half = sides * np.sqrt(rate * (1 - rate) / more + (sides / (2 * more)) ** 2) / (1 + sides**2 / more)
-    return int(more[np.argmax(half <= within)])
+    the 95 % interval of the same rate is no more than ``within`` (above 0); ``share`` as of ``rate_interval``."""
+    more = np.arange(count, count + int((_SIDES / within) ** 2) + 2)
+    return int(more[np.argmax(_half_width(hits / count, more / (1 - share)) <= within)])
 
 
 def rate_change(before, after, paired):

@@ -8,6 +8,8 @@ from pipeline.physics.stability.draw_statistics import (
     among_bands,
     band_of,
     draws_needed,
+    even_scores,
+    explained,
     first_order,
     rate_change,
     rate_interval,
@@ -56,6 +58,47 @@ def test_ending_draws_by_the_width_of_the_interval_takes_less_than_a_point_off_i
                     following[key] = following.get(key, 0.0) + chance * share
         layer = following
     assert 0.94 < covered < 0.95
+
+
+def test_even_scores_are_standard_normal_and_the_first_of_more_are_those_of_fewer():
+    scores = even_scores(512, 12, 3)
+    assert all(scipy.stats.kstest(column, "norm").pvalue > 0.99 for column in scores.T)
+    assert abs(np.corrcoef(scores.T) - np.eye(12)).max() < 0.05
+    np.testing.assert_array_equal(even_scores(100, 12, 3), scores[:100])
+    assert abs(even_scores(512, 12, 4) - scores).max(axis=0).min() > 1
+    assert even_scores(0, 12, 3).shape == (0, 12) and even_scores(3, 0, 3).shape == (3, 0)
+    assert even_scores(1, 2, 3).shape == (1, 2)
+
+
+def test_what_scores_explain_is_the_share_that_is_linear_in_them():
+    """Of sign(x): (2 / pi); of the product of two sources, and of a source that is not there: nothing."""
+    scores = np.random.default_rng(1).standard_normal((20_000, 4))
+    assert explained(scores, scores[:, 0] > 0) == pytest.approx(2 / np.pi, abs=0.01)
+    assert explained(scores, scores[:, 0] * scores[:, 1] > 0) < 0.002
+    assert explained(scores[:, 1:], scores[:, 0] > 0) < 0.002
+    few = [np.mean([explained(part, part[:, 0] > 0) for part in np.split(scores[:20_000], count)])
+           for count in (200, 500)]
+    np.testing.assert_allclose(few, 2 / np.pi, atol=0.01)       # of 100 and of 40 draws: adjusted, no more for fewer
+    assert explained(scores[:20], scores[:20, 0] > 0) == 0.0 == explained(scores, scores[:, 0] > 9)
+
+
+@pytest.mark.parametrize(("modes", "rate"), [(1, 0.84), (1, 0.5), (3, 0.84), (3, 0.3)])
+def test_intervals_of_even_draws_hold_the_rate_in_95_percent_and_end_sooner(modes, rate):
+    """A system squeals if any of some modes, each of which sources of its own drive, is above a level."""
+    weights = np.kron(np.eye(modes), [[0.8], [0.5], [0.3], [0.1]]) / np.linalg.norm([0.8, 0.5, 0.3, 0.1])
+    level = scipy.special.ndtri((1 - rate) ** (1 / modes))
+    covered, made = [], []
+    for seed in range(200):
+        scores = even_scores(400, len(weights), seed)
+        hits, count = (scores @ weights > level).any(axis=1), 0
+        while count < (needed := 100 if not count else min(draws_needed(
+                hits[:count].sum(), count, 0.05, explained(scores[:count], hits[:count])), 400)):
+            count = needed
+        low, high = rate_interval(hits[:count].sum(), count, explained(scores[:count], hits[:count]))
+        covered.append(low <= rate <= high)
+        made.append(count)
+    assert np.mean(covered) >= 0.94
+    assert np.mean(made) < 0.8 * draws_needed(100 * rate, 100, 0.05)
 
 
 def test_change_of_two_rates_is_that_of_newcombes_example():

@@ -113,6 +113,9 @@ def test_how_likely_says_where_how_much_and_what_matters():
     assert f"{100 * product.probability.max():.3g}" in said and "3 MPa" in said
     assert "What matters most: friction (70" in said and "less stable), then damping speed" in said
     assert "more stable" in said
+    blurred = dict(verdict({"complex_modes": small.complex_modes(), "probability": replace(
+        product, sensitivity_error=product.sensitivity + 0.1)}, ()).answers)["How likely"]
+    assert "matters most" not in blurred and "No source stands out" in blurred
     assert "How likely" not in dict(verdict({"complex_modes": small.complex_modes()}, ()).answers)
 
 
