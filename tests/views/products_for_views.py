@@ -82,7 +82,7 @@ def surface(nodes=48):
 
 def micro_friction(nodes=48):
     """Friction that rises with wear."""
-    distance = np.linspace(5e-5, 1e-2, 12)
+    distance = np.linspace(5e-5, 1e-2, 5)
     worn = distance / distance[-1]
     area = (PRESSURE[:, None, None] / 1e6 * 0.03 + 0.02 * worn) * np.ones((1, 3, 1))
     friction = 0.40 + 0.02 * np.arange(3)[:, None, None] + 0.002 * np.arange(3)[:, None] + 0.2 * worn

@@ -109,18 +109,30 @@ def test_every_picture_loads_and_nothing_is_wider_than_the_screen(html, width, t
     assert requests == []
 
 
+@pytest.fixture(scope="module")
+def ruptured():
+    """The page of a rupture."""
+    few = Settings(dots_per_inch=50)
+    return report({"rupture": small.rupture()}, settings=few, context=Context(case=small.case())).html.item()
+
+
 @pytest.mark.parametrize("width", [PHONE, DESKTOP], ids=["phone", "desktop"])
-def test_the_page_of_a_rupture_is_no_wider_than_the_screen(width, tmp_path):
-    made = report({"rupture": small.rupture()}, settings=Settings(dots_per_inch=50), context=Context(case=small.case()))
-    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(made.html.item())))
+def test_the_page_of_a_rupture_is_no_wider_than_the_screen(ruptured, width, tmp_path):
+    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(ruptured)))
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
     assert found["text"] == "The left front stops, the right one runs on" and found["wide"] == width
     assert found["images"] > 3 and found["broken"] == 0 and not console and not requests
 
 
+@pytest.fixture(scope="module")
+def tried():
+    """The page of a trial."""
+    return page(drawn())
+
+
 @pytest.mark.parametrize("width", [PHONE, DESKTOP], ids=["phone", "desktop"])
-def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width, tmp_path):
-    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(page(drawn()))))
+def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(tried, width, tmp_path):
+    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(tried)))
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
     assert "hidden effects correctly named and located" in found["text"] and found["wide"] == width
     assert found["images"] == 9 and found["broken"] == 0 and not console and not requests
