@@ -167,18 +167,27 @@ def test_a_pin_whose_settings_cannot_be(tmp_path, override, message):
     assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"
 
 
-def test_a_drive_that_turns_backwards_under_a_heavy_clamp(tmp_path):
-    """Backwards the tilt leans against the motion; forwards with the other tilt the stage sees that the pin locks."""
-    heavy = "--run", tmp_path / "run", "--set", "pin_on_disc.pin.base_mass=1 kg", "--set"
-    told = refused(2, "run", PIN, *heavy, "transient.speeds=[-0.25 rad/s]")
-    assert "transient.speeds: expected speeds above 0" in told and "change the signs of pin.tilt" in told
-    assert "it locks" in refused(2, "run", PIN, *heavy, "pin_on_disc.pin.tilt=-4 deg")
-
-
 @pytest.fixture(scope="module")
 def pins(tmp_path_factory):
     """Run folder that the pins share, so that only the stages from the wrong setting on are computed anew."""
     return tmp_path_factory.mktemp("pins") / "run"
+
+
+def coarse(folder, *overrides):
+    """Arguments of a run of the pin with coarse meshes."""
+    meshes = ("surface.nodes=128", "surface.patch_length=128 um", "pin_on_disc.frequency_max=3 kHz",
+              "pin_on_disc.disc.radial_cells=3", "pin_on_disc.disc.angular_cells=12", "pin_on_disc.disc.axial_cells=1",
+              "reduced_model.fixed_below=6 kHz", "interface_law.pressure_steps=8",
+              "friction_descriptions.steps=10")
+    return "run", PIN, "--run", folder, *(part for each in (*meshes, *overrides) for part in ("--set", each))
+
+
+def test_a_drive_that_turns_backwards_under_a_heavy_clamp(pins):
+    """Backwards the tilt leans against the motion; forwards with the other tilt the stage sees that the pin locks."""
+    heavy = "pin_on_disc.pin.base_mass=1 kg"
+    told = refused(2, *coarse(pins, heavy, "transient.speeds=[-0.25 rad/s]"))
+    assert "transient.speeds: expected speeds above 0" in told and "change the signs of pin.tilt" in told
+    assert "it locks" in refused(2, *coarse(pins, heavy, "pin_on_disc.pin.tilt=-4 deg"))
 
 
 @pytest.mark.parametrize("override, message", [
@@ -187,8 +196,5 @@ def pins(tmp_path_factory):
     ("transient.step=3 us", "for the stiffness of contact 0, found 3e-06 s; shorten the step"),
 ])
 def test_a_pin_that_cannot_be_built_or_stepped(pins, override, message):
-    """With coarse meshes; the stages before the one that refuses are as they were."""
-    coarse = ("surface.nodes=128", "surface.patch_length=128 um", "pin_on_disc.frequency_max=3 kHz",
-              "pin_on_disc.disc.radial_cells=3", "pin_on_disc.disc.angular_cells=12", "pin_on_disc.disc.axial_cells=1",
-              "reduced_model.fixed_below=6 kHz", override)
-    assert message in refused(2, "run", PIN, "--run", pins, *(a for c in coarse for a in ("--set", c)))
+    """The stages before the one that refuses are as they were."""
+    assert message in refused(2, *coarse(pins, override))

@@ -1,6 +1,7 @@
 """Stage countermeasures: which variants it asks for, and what its product says of a brake of a few elements."""
 
 from dataclasses import replace
+from functools import cache
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
@@ -31,7 +32,10 @@ class Sampled(Section):
     draws: int = 10
 
 
-def drawn(given, draws):
+@cache
+def drawn(draws, **changed):
+    """Draws of the brake, or of one that is changed."""
+    given = brake(**changed)
     return probability(given.model, given.friction_map, given.modes, settings=Draws(
         draws=draws, checked=0, training=2, sources=SOURCES))
 
@@ -39,15 +43,16 @@ def drawn(given, draws):
 def made(variants=VARIANTS, draws=40, of_variants=None, context=None, search=None, more=MappingProxyType({}),
          **settings):
     base, empty = brake(), effects({})
-    others = {f"countermeasures.{name}": brake(**{**BRAKES, **more}[name]) for name in (*variants, *more)}
+    changed = {f"countermeasures.{name}": {**BRAKES, **more}[name] for name in (*variants, *more)}
+    others = {name: brake(**change) for name, change in changed.items()}
     return countermeasures(
-        base.modes, base.model, base.friction_map, empty, convergence(), drawn(base, draws), search,
+        base.modes, base.model, base.friction_map, empty, convergence(), drawn(draws), search,
         varied_modes={name: other.modes for name, other in others.items()},
         varied_models={name: other.model for name, other in others.items()},
         varied_maps={name: other.friction_map for name, other in others.items()},
         varied_effects=dict.fromkeys(others, empty),
-        varied_probabilities={name: drawn(other, draws if of_variants is None else of_variants)
-                              for name, other in others.items()},
+        varied_probabilities={name: drawn(draws if of_variants is None else of_variants, **change)
+                              for name, change in changed.items()},
         settings=Settings.model_validate({"variants": variants, **settings}), context=context or Context())
 
 
