@@ -22,7 +22,8 @@ from tests.stages.finite_elements import FiniteElements
 from tests.stages.small_oscillator import DAMPING, MASS, NORMAL_FORCE, STIFFNESS, small_oscillator
 from tests.stages.small_structure import small_friction_map, small_structure
 
-SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz"}
+#: no path over friction, but where it is what a test is about
+SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz", "followed": 0}
 #: m/s; a damping speed at which contacts are as good as undamped
 NO_DAMPING = 1e12
 
@@ -144,7 +145,7 @@ def test_the_sweep_ends_in_all_roots_of_the_reduced_model_where_friction_has_mov
                      law_pressure=model.law_pressure[-1] * np.linspace(0, 1, 40)**2)
     modes = complex_modes(curved, small_friction_map(), settings=Settings(
         **SETTINGS | {"friction_steps": 2, "friction_damping": False, "speeds": ("10 rad/s",)}, friction_max=1.1,
-        smallest_correction=3e-3, followed=0))
+        smallest_correction=3e-3))
     for state, found in enumerate(modes.root[:, -1]):
         about, _ = sliding(curved, state, 10.0, 1.1)
         root = quadratic_roots(*about.linearised(1.1, friction_damping=False))
@@ -284,7 +285,7 @@ IN_FULL = SETTINGS | {"friction_damping": False, "centrifugal": False}
 def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
     """Assembled anew, solved by another factorisation; the basis is coarse enough for the reduced roots to be off."""
     structure, model = lossy
-    modes = complex_modes(model, small_friction_map(), None, structure, settings=Settings(**IN_FULL))
+    modes = complex_modes(model, small_friction_map(), None, structure, settings=Settings(**IN_FULL | {"followed": 12}))
     elements, checked = FiniteElements(structure), []
     inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
     outside = np.invert(inside)
@@ -305,6 +306,7 @@ def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
             assert modes.unstable_share[k].sum() == pytest.approx(1.0)
             checked.append(abs(reduced - direct))
     assert len(checked) >= 4 and max(checked) > 1.0
+    assert len(modes.followed_mode)
     for index in modes.followed_mode:
         assert modes.path_root[modes.path_mode == index][-1] == pytest.approx(modes.unstable_reduced[index], rel=1e-8)
 
@@ -323,7 +325,7 @@ def test_without_full_matrices_roots_are_those_of_the_reduced_model(lossy):
 def growing(model):
     """Modes that grow, with loss factors, of which every frequency is followed once."""
     lossy = changed(model, loss=1e-3 * model.stiffness)
-    settings = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False})
+    settings = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False, "followed": 12})
     return lossy, settings, complex_modes(lossy, small_friction_map(), settings=settings)
 
 
@@ -343,6 +345,7 @@ def test_the_growth_rate_is_the_sum_of_what_friction_contacts_bodies_and_joints_
 def test_linings_are_as_stiff_as_the_pressure_of_each_state_makes_them(growing):
     """At twice the pressure by the root of two: the modes of that brake, and their terms, which add up."""
     lossy, settings, _ = growing
+    settings = settings.model_copy(update={"followed": 0})
     lined = np.flatnonzero(np.isin(lossy.coordinate_body, (1, 2)))
     lining = np.zeros_like(lossy.stiffness)
     lining[np.ix_(lined, lined)] = 0.5 * lossy.stiffness[np.ix_(lined, lined)]
@@ -390,7 +393,7 @@ def test_the_product_says_how_its_roots_were_made(growing):
 
 def test_paths_can_be_left_out(growing):
     lossy, settings, modes = growing
-    chosen = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, followed=0)
+    chosen = settings.model_copy(update={"followed": 0})
     without = complex_modes(lossy, small_friction_map(), settings=chosen)
     assert not len(without.followed_mode) and not len(without.path_root)
     np.testing.assert_array_equal(without.unstable_root, modes.unstable_root)

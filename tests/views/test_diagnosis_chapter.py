@@ -13,6 +13,12 @@ from tests.views import products_for_views as products
 from tests.views.diagnosis_for_views import bench, changed, diagnosis
 
 
+@pytest.fixture(scope="module")
+def written():
+    """The chapter of what is missing, read by many tests."""
+    return chapter(diagnosis(), Look())
+
+
 @pytest.mark.parametrize("kind, said, tone", [
     ("missing", "Coulomb at guide is missing (97\u202f%)", "warning"),
     ("tie", "Missing effect identified up to ambiguity: coulomb at guide or quadratic damping at arm", "warning"),
@@ -86,8 +92,9 @@ def test_of_many_wrong_values_those_that_changed_most_are_listed():
 def test_a_description_is_never_called_physics():
     found = diagnosis("unknown")
     assert dict(note(found))["What is missing"].endswith(found.latent_sentence.item())
-    assert any("not identified physics" in n for n in chapter(found, Look()).notes)
-    assert any("not identified physics" in f.caption for f in chapter(found, Look()).figures)
+    described = chapter(found, Look())
+    assert any("not identified physics" in n for n in described.notes)
+    assert any("not identified physics" in f.caption for f in described.figures)
 
 
 def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_catalogue_in_doubt():
@@ -133,7 +140,7 @@ def test_the_map_shows_the_tone_in_its_octave_and_noise_as_one():
     assert after[:, -3:] == pytest.approx(np.ones((2, 3)), rel=0.25)
 
 
-def test_features_are_mapped_by_channel():
+def test_features_are_mapped_by_channel(written):
     """Four features a run: no octaves, no spectrum; 0.05 beside a noise of 0.01 is 5."""
     few = {"time": np.arange(4.0), "measured": np.ones((1, 4)), "valid": np.ones((1, 4), int),
            "nominal": np.zeros((1, 4)), "recalibrated": np.full((1, 4), 0.95), "completed": np.ones((1, 4))}
@@ -141,7 +148,7 @@ def test_features_are_mapped_by_channel():
     short = changed(found, runs={name: changed(run, **few) for name, run in found.runs.items()})
     names, table = pictures.by_channel(short, "recalibrated")
     assert names == ["position"] and table == pytest.approx(np.full((2, 1), 5.0))
-    assert len(chapter(short, Look()).figures) == len(chapter(found, Look()).figures) - 2
+    assert len(chapter(short, Look()).figures) == len(written.figures) - 2
 
 
 def test_pictures_are_the_same_twice_and_follow_the_product():
@@ -166,27 +173,28 @@ def test_the_bench_shows_prediction_beside_measurement():
     assert made.tables[0].rows[1] == ("second", "position", "20\u202f%", "140\u202fmm")
 
 
-def test_friction_is_drawn_point_by_point():
+def test_friction_is_drawn_point_by_point(written):
     whole = diagnosis()
     few = {name: changed(run, **{part: getattr(run, part)[..., :12] for part in
                                  ("time", "measured", "valid", "nominal", "recalibrated", "completed")})
            for name, run in whole.runs.items()}
     rubbed = changed(whole, channel=["friction"], channel_unit=["1"], runs=few)
-    shown = [f for f in chapter(rubbed, Look()).figures if f.caption.startswith("Friction of every run")]
+    figures = chapter(rubbed, Look()).figures
+    shown = [f for f in figures if f.caption.startswith("Friction of every run")]
     assert len(shown) == 1 and shown[0].image == pictures.points(rubbed)
     assert pictures.points(changed(rubbed, runs={"bang": few["bang"]})) != shown[0].image
-    assert not any(f.caption.startswith("Friction of every run") for f in chapter(whole, Look()).figures)
-    assert "in each channel" in chapter(rubbed, Look()).figures[0].caption
+    assert not any(f.caption.startswith("Friction of every run") for f in written.figures)
+    assert "in each channel" in figures[0].caption
 
 
-def test_every_threshold_is_listed_with_its_unit():
-    table = next(t for t in chapter(diagnosis(), Look()).tables if t.title == "Rules by which it was decided")
+def test_every_threshold_is_listed_with_its_unit(written):
+    table = next(t for t in written.tables if t.title == "Rules by which it was decided")
     assert [row[:2] for row in table.rows] == [("decision.posterior", "0.9"), ("poles.delay_std", "1e-06\u202fs")]
 
 
-def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_there_are_none():
+def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_there_are_none(written):
     title = "Combinations of effects that were tried"
-    table = next(t for t in chapter(diagnosis(), Look()).tables if t.title == title)
+    table = next(t for t in written.tables if t.title == title)
     assert table.rows == (("coulomb at a + cubic stiffness at a", "12", "120", "1.1",
                            "coulomb at a adds an evidence of 1.0 nat"),)
     none = dict.fromkeys(("combination", "combination_gain", "combination_refitted", "combination_objective",
@@ -194,9 +202,9 @@ def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_the
     assert all(t.title != title for t in chapter(changed(diagnosis(), **none), Look()).tables)
 
 
-def test_hypotheses_of_no_stage_have_no_map_of_stages():
+def test_hypotheses_of_no_stage_have_no_map_of_stages(written):
     """Of lines of a disc alone: every rival is of the recordings or of the model as a whole."""
     found = diagnosis()
-    told, without = ([str(figure) for figure in chapter(each, Look()).figures]
-                     for each in (found, changed(found, stage=[""] * len(found.stage))))
+    nowhere = chapter(changed(found, stage=[""] * len(found.stage)), Look())
+    told, without = ([str(figure) for figure in each.figures] for each in (written, nowhere))
     assert len(without) == len(told) - 1 and not any("by stage" in figure for figure in without)
