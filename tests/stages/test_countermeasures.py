@@ -40,7 +40,7 @@ def drawn(draws, **changed):
         draws=draws, checked=0, training=2, sources=SOURCES))
 
 
-def made(variants=VARIANTS, draws=40, of_variants=None, context=None, search=None, more=MappingProxyType({}),
+def made(variants=VARIANTS, draws=20, of_variants=None, context=None, search=None, more=MappingProxyType({}),
          **settings):
     base, empty = brake(), effects({})
     changed = {f"countermeasures.{name}": {**BRAKES, **more}[name] for name in (*variants, *more)}
@@ -70,7 +70,7 @@ def test_what_helps_and_what_makes_worse_is_told(product):
     np.testing.assert_allclose(product.variant_overall - product.overall, product.overall_change, atol=1e-12)
     np.testing.assert_allclose(product.variant_probability - product.probability, product.probability_change,
                                atol=1e-12)
-    assert product.paired.all() and product.draws == 40
+    assert product.paired.all() and product.draws == 20
     used = product.band_probability > 0
     assert used.any() and (product.variant_band_probability[0] <= product.band_probability)[used].all()
     assert (product.band_change_interval[1, :, 1] > 0).all()
@@ -123,7 +123,7 @@ def test_without_variants_nothing_is_compared():
     assert not len(nothing.variant) and not len(nothing.before) and nothing.variant_probability.shape == (0, 4)
 
 
-@pytest.mark.parametrize("settings", [{"probability": False}, {"of_variants": 20}], ids=["modes", "fewer"])
+@pytest.mark.parametrize("settings", [{"probability": False}, {"of_variants": 10}], ids=["modes", "fewer"])
 def test_probabilities_are_left_out_or_of_fewer_draws(settings):
     product = made({"damped": VARIANTS["damped"]}, **settings)
     assert set(product.state) == {"gone"}

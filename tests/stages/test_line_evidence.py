@@ -40,9 +40,14 @@ def brake():
 
 
 @pytest.fixture(scope="module")
-def tone(brake):
+def drawn(brake):
+    """Draws of the whole brake."""
+    return probability(*brake, settings=Draws(draws=60, checked=0, sources=SOURCES))
+
+
+@pytest.fixture(scope="module")
+def tone(drawn):
     """Frequency, Hz, of the mode of the whole brake that most draws let grow."""
-    drawn = probability(*brake, settings=Draws(draws=60, checked=0, sources=SOURCES))
     frequency = drawn.root[drawn.pressure[drawn.root_operating] == 2e6].imag / (2 * np.pi)
     near = abs(frequency / frequency[:, None] - 1) < 0.01
     return float(frequency[np.argmax(near.sum(axis=1))])
@@ -53,9 +58,8 @@ def made(brake, tone):
     return line_evidence(*brake, recording(tone), settings=Settings(**GIVEN))
 
 
-def test_tones_are_the_unstable_modes_of_the_draws(brake, made):
+def test_tones_are_the_unstable_modes_of_the_draws(drawn, made):
     """Those of stage probability at the loaded point, which draws the same values."""
-    drawn = probability(*brake, settings=Draws(draws=60, checked=0, sources=SOURCES))
     cycle = drawn.root[(drawn.pressure[drawn.root_operating] == 2e6)]
     tones = made.tone[made.tone_hypothesis == 1]
     assert len(tones) and all(abs(cycle.imag / (2 * np.pi) - f).min() < 0.01 * f for f in tones)
@@ -71,41 +75,45 @@ def test_a_line_at_a_tone_of_the_flexible_brake_is_evidence_for_it(made, tone):
 
 def test_the_cycle_is_run_at_constant_power(brake):
     model, law, modes = brake
-    points = Settings(**{**GIVEN, "silent_up_to": "1.5 MPa", "cycle_speed": "6 rad/s"})
+    points = Settings(**{**GIVEN, "silent_up_to": "1.5 MPa", "cycle_speed": "6 rad/s", "draws": 20})
     made = line_evidence(model, law, modes, recording(3e3), settings=points)
     np.testing.assert_allclose(made.speed, [8.0, 6.0])
     assert [str(made.test[k]) for k in made.operating_test] == ["constant load", "cycle"]
 
 
-def test_recorded_runs_are_tests_at_their_own_operating_points(brake, tone):
-    points = {"low": (1e6, ()), "high": (2e6, (tone,))}
-    runs = {}
-    for name, (pressure, lines) in points.items():
-        run = recording(*lines).runs["bench"]
-        given = {"pressure": (pressure, "Pa"), "speed": (8.0, "rad/s")}
-        runs[name] = replace(run, conditions={
-            key: Condition(value=[value], time=[0.0], unit=unit) for key, (value, unit) in given.items()})
-    settings = Settings(**{**GIVEN, "runs": ("low", "high")})
-    made = line_evidence(*brake, Recording(source=[], runs=runs), settings=settings)
-    assert [str(t) for t in made.test] == ["low", "high"] and not len(made.cycle_time)
-    np.testing.assert_array_equal(made.heard_in, [[0, 1]])
-    np.testing.assert_allclose(made.pressure, [1e6, 2e6])
-    assert made.lines_alone[1] > made.lines_alone[0] and made.near[1, 0] > made.near[0, 0]
+#: settings for two recorded runs
+OF_RUNS = Settings(**{**GIVEN, "runs": ("low", "high")})
 
 
-def test_squeal_found_in_records_weighs_as_a_list_of_it(brake, tone):
+@pytest.fixture(scope="module")
+def recorded(tone):
+    """A Recording of a silent run at the low pressure and one with a line at the high one."""
     runs = {}
     for name, pressure, lines in (("low", 1e6, ()), ("high", 2e6, (tone,))):
         given = {"pressure": (pressure, "Pa"), "speed": (8.0, "rad/s")}
         runs[name] = replace(recording(*lines).runs["bench"], conditions={
             key: Condition(value=[value], time=[0.0], unit=unit) for key, (value, unit) in given.items()})
+    return Recording(source=[], runs=runs)
+
+
+@pytest.fixture(scope="module")
+def listed(brake, recorded):
+    return line_evidence(*brake, recorded, settings=OF_RUNS)
+
+
+def test_recorded_runs_are_tests_at_their_own_operating_points(listed):
+    assert [str(t) for t in listed.test] == ["low", "high"] and not len(listed.cycle_time)
+    np.testing.assert_array_equal(listed.heard_in, [[0, 1]])
+    np.testing.assert_allclose(listed.pressure, [1e6, 2e6])
+    assert listed.lines_alone[1] > listed.lines_alone[0] and listed.near[1, 0] > listed.near[0, 0]
+
+
+def test_squeal_found_in_records_weighs_as_a_list_of_it(brake, tone, recorded, listed):
     every = noise_events()
     events = replace(every, band=[500.0, 16e3], record_run=["low", "low", "high"], **{
         name: getattr(every, name)[2:3] for name in vars(every) if name.startswith("event_")})
     events = replace(events, event_frequency=[tone], event_lowest=[tone - 50.0], event_highest=[tone + 50.0])
-    settings = Settings(**{**GIVEN, "runs": ("low", "high")})
-    listed = line_evidence(*brake, Recording(source=[], runs=runs), settings=settings)
-    found = line_evidence(*brake, Recording(source=[], runs=runs), events, settings=settings)
+    found = line_evidence(*brake, recorded, events, settings=OF_RUNS)
     np.testing.assert_array_equal(found.evidence, listed.evidence)
     np.testing.assert_array_equal(found.heard_in, [[0, 1]])
 

@@ -34,12 +34,12 @@ def brake():
 
 @pytest.fixture(scope="module")
 def made(brake):
-    return probability(*brake, settings=Settings(draws=60, checked=6, sources=SOURCES))
+    return probability(*brake, settings=Settings(draws=40, checked=6, sources=SOURCES))
 
 
 def test_shares_are_those_of_the_unstable_roots(made):
     points = len(made.pressure)
-    unstable = np.zeros((60, points), bool)
+    unstable = np.zeros((40, points), bool)
     unstable[made.root_draw, made.root_operating] = True
     np.testing.assert_array_equal(made.probability, unstable.mean(axis=0))
     assert made.overall == unstable.any(axis=1).mean() and 0.05 < made.overall < 0.95
@@ -74,12 +74,12 @@ def test_without_scatter_the_probability_is_0_or_1_and_the_roots_are_those_of_co
 
 
 def test_the_number_of_workers_changes_no_bit(brake, made):
-    again = probability(*brake, settings=Settings(draws=60, checked=6, sources=SOURCES), context=TwoProcesses())
+    again = probability(*brake, settings=Settings(draws=40, checked=6, sources=SOURCES), context=TwoProcesses())
     assert store.content_hash(again) == store.content_hash(made)
 
 
 def test_another_seed_gives_other_draws_and_a_like_probability(brake, made):
-    other = probability(*brake, settings=Settings(draws=60, checked=0, sources=SOURCES, seed=12))
+    other = probability(*brake, settings=Settings(draws=40, checked=0, sources=SOURCES, seed=12))
     assert not np.array_equal(other.value, made.value)
     assert other.overall_interval[0] < made.overall_interval[1] and made.overall_interval[0] < other.overall_interval[1]
 
