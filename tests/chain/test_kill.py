@@ -55,16 +55,16 @@ def killed_after(seconds, folder, case=QUICK):
     return run.wait()
 
 
-def killed_while_computing(seconds, folder, case):
-    return _dead(DIE_WHILE_COMPUTING, seconds, folder, case)
+def killed_while_computing(seconds, folder, case, *settings):
+    return _dead(DIE_WHILE_COMPUTING, seconds, folder, case, *settings)
 
 
-def killed_while_writing(product, folder, case=QUICK):
-    return _dead(DIE_IN_MID_WRITE, f"{product}.h5", folder, case)
+def killed_while_writing(product, folder, case=QUICK, *settings):
+    return _dead(DIE_IN_MID_WRITE, f"{product}.h5", folder, case, *settings)
 
 
-def _dead(script, when, folder, case):
-    command = [sys.executable, "-c", script, str(when), "run", str(case), "--run", str(folder)]
+def _dead(script, when, folder, case, *settings):
+    command = [sys.executable, "-c", script, str(when), "run", str(case), "--run", str(folder), *settings]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, timeout=900,
                           env={**os.environ, "PYTHONPATH": str(ROOT)})
     return done.returncode
