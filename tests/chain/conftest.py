@@ -7,7 +7,7 @@ import pytest
 
 from stages import CHAINS
 from tests.chain.run_contents import everything
-from tests.commands import ROOT, process
+from tests.commands import ROOT, brakechain
 
 NAMES = CHAINS["disc_brake"]
 QUICK = ROOT / "configs" / "disc_brake_quick.yaml"
@@ -21,8 +21,8 @@ def contents(folder):
 
 @pytest.fixture(scope="session")
 def finished(once):
-    """Folder of a quick run finished by two processes, others go with one; read only: copy it before you change it."""
-    return once("disc_brake_quick", lambda folder: process("run", QUICK, "--run", folder, "--workers", 2))
+    """Folder of a finished quick run; read only: copy it before you change it."""
+    return once("disc_brake_quick", lambda folder: brakechain("run", QUICK, "--run", folder))
 
 
 @pytest.fixture

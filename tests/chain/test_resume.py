@@ -22,9 +22,9 @@ BELT, SHORT = ROOT / "configs" / "belt.yaml", ("--set", "transient.duration=3 s"
 
 @pytest.fixture(scope="module")
 def whole_belt(tmp_path_factory):
-    """Folder of a finished run of the block on a belt; read only."""
+    """Folder of a run of the block on a belt finished by two processes, others go with one; read only."""
     folder = tmp_path_factory.mktemp("belt") / "run"
-    brakechain("run", BELT, "--run", folder, *SHORT)
+    brakechain("run", BELT, "--run", folder, *SHORT, "--workers", 2)
     return folder
 
 

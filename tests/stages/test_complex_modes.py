@@ -21,6 +21,7 @@ from stages.reduced_model import reduced_model
 from tests.stages.finite_elements import FiniteElements
 from tests.stages.small_oscillator import DAMPING, MASS, NORMAL_FORCE, STIFFNESS, small_oscillator
 from tests.stages.small_structure import small_friction_map, small_structure
+from tests.stages.two_processes import TwoProcesses
 
 #: no path over friction, but where it is what a test is about
 SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz", "followed": 0}
@@ -209,8 +210,8 @@ def test_pads_and_caliper_move_the_roots(modes, change):
     assert abs(moved.operating_root[:, :count] - modes.operating_root[:, :count]).max() > 10.0
 
 
-def test_same_bits_twice(model, modes):
-    again = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS))
+def test_the_number_of_workers_changes_no_bit(model, modes):
+    again = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS), context=TwoProcesses())
     assert all(np.array_equal(getattr(again, f.name), getattr(modes, f.name)) for f in fields(modes))
 
 

@@ -6,24 +6,29 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.contract import ConfigError
+from pipeline.contract import ConfigError, Context, store
 from pipeline.physics.signals.spectra import power_spectrum
 from pipeline.products import Response
 from stages.squeal import Settings, squeal
+from tests.stages.two_processes import TwoProcesses
 from tests.views.products_for_views import filled
 
 RATE = 50e3
 TIME = np.arange(10000) / RATE
 
 
+def response(velocity):
+    """Response with the sensors ``velocity`` (operating point, sensor, time)."""
+    velocity = np.asarray(velocity, dtype=np.float32)
+    frequency, spectrum = power_spectrum(velocity.astype(float), RATE, 50.0)
+    return filled(Response, pressure=[1e6] * len(velocity), speed=[8.5] * len(velocity), coupling="disc", time=TIME,
+                  velocity=velocity, frequency=frequency, velocity_spectrum=spectrum,
+                  sensor_name=[str(s) for s in range(velocity.shape[1])])
+
+
 def find(velocity, **settings):
     """Squeal of one operating point with the sensors ``velocity`` (sensor, time)."""
-    velocity = np.asarray(velocity, dtype=np.float32)[None]
-    frequency, spectrum = power_spectrum(velocity.astype(float), RATE, 50.0)
-    found = filled(Response, pressure=[1e6], speed=[8.5], coupling="disc", time=TIME, velocity=velocity,
-                   frequency=frequency, velocity_spectrum=spectrum,
-                   sensor_name=[str(s) for s in range(velocity.shape[1])])
-    return squeal(found, settings=Settings.model_validate({"settling": "20 ms", **settings}))
+    return squeal(response([velocity]), settings=Settings.model_validate({"settling": "20 ms", **settings}))
 
 
 def tone(frequency, root_mean_square, start=0.0):
@@ -40,6 +45,12 @@ def test_tones_at_two_sensors():
     np.testing.assert_allclose(found.peak_level[0], found.event_level, atol=1e-9)
     band = found.band_level[0, 0, np.argmin(np.abs(found.band - 16000))]
     assert band == pytest.approx(20 * np.log10(2e6), abs=0.1)
+
+
+def test_the_number_of_workers_changes_no_bit():
+    points = response([[tone(16600, 2e-3)], [tone(9000, 5e-3, 0.1)], [tone(5000, 1e-5)]])
+    one, two = (squeal(points, settings=Settings(), context=context) for context in (Context(), TwoProcesses()))
+    assert len(one.event_level) == 2 and store.content_hash(one) == store.content_hash(two)
 
 
 def test_a_harmonic_names_its_fundamental_below_the_band():
