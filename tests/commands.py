@@ -35,17 +35,6 @@ def brakechain(*args, code=0, cwd=ROOT):
     return _checked(subprocess.CompletedProcess(command, found, out.told(), err.told()), code)
 
 
-def process(*args, code=0, cwd=ROOT, timeout=1800):
-    """The same in a process of its own; where it takes longer than ``timeout`` s, how far it came."""
-    try:
-        done = subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True,
-                              cwd=cwd, timeout=timeout)
-    except subprocess.TimeoutExpired as stopped:
-        told = b"".join(filter(None, (stopped.stdout, stopped.stderr))).decode(errors="replace")
-        raise AssertionError(f"{' '.join(map(str, args))}: stopped after {stopped.timeout:g} s\n{told}") from None
-    return _checked(done, code)
-
-
 def _checked(done, code):
     assert code is None or done.returncode == code, done.stdout + done.stderr
     return done
