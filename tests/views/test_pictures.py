@@ -198,6 +198,17 @@ def test_an_animation_moves_and_keeps_its_size():
     assert len(shorter.image) < len(whole.image)
 
 
+def test_spots_and_wear_move_over_the_distances():
+    """Frame by frame, whatever is written above."""
+    from io import BytesIO
+
+    from PIL import Image
+
+    untitled = replace(small.micro_friction(8), distance=np.zeros(5))
+    for what in ("spots", "pad"):
+        assert Image.open(BytesIO(contact_spots.over_cycles(untitled, what, 40).image)).n_frames == 5
+
+
 def test_the_interface_shows_its_state():
     moving = small.rupture()
     opened = replace(moving, frame_state=2 * moving.frame_state)
