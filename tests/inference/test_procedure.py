@@ -2,6 +2,7 @@
 
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from math import copysign, sin, tanh
 from multiprocessing import get_context
 from time import process_time
 from types import SimpleNamespace
@@ -29,15 +30,15 @@ def cubic(t, x, v):
 
 
 def coulomb(t, x, v):
-    return 0.6 * np.tanh(v / 0.005)
+    return 0.6 * tanh(v / 0.005)
 
 
 def modulated(t, x, v):
-    return 25.0 * np.sin(9.0 * t) * x
+    return 25.0 * sin(9.0 * t) * x
 
 
 def gap(t, x, v):
-    return 300.0 * max(0.0, abs(x) - 0.015) * np.sign(x)
+    return 300.0 * max(0.0, abs(x) - 0.015) * copysign(1.0, x)
 
 
 def both(t, x, v):

@@ -1,6 +1,7 @@
 """What a named law leaves along other laws at its place: calibrated whatever the noise, and told as another form."""
 
 from dataclasses import replace
+from math import sin, tanh
 from types import SimpleNamespace
 
 import numpy as np
@@ -102,7 +103,7 @@ def test_features_and_laws_of_other_places_are_not_asked():
 
 
 def dry(t, x, v):
-    return 0.6 * np.tanh(v / 0.005)
+    return 0.6 * tanh(v / 0.005)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -133,6 +134,6 @@ def test_noise_of_another_colour_is_told_from_a_force_that_no_law_has():
     coloured = replace(problem, runs=tuple(runs))
     told = diagnose(coloured, budget(coloured), CATALOGUE)
     assert told.decision.verdict == "unknown" and "noise of another colour" in told.decision.reasons[-1]
-    missing = bench(5, 0.02, stiffness=430.0, extra=lambda t, x, v: 25.0 * np.sin(9.0 * t) * x)
+    missing = bench(5, 0.02, stiffness=430.0, extra=lambda t, x, v: 25.0 * sin(9.0 * t) * x)
     told = diagnose(missing, budget(missing), CATALOGUE)
     assert told.decision.verdict == "unknown" and not any("colour" in r for r in told.decision.reasons)
