@@ -6,6 +6,7 @@ truth integrated apart.
 
 from dataclasses import replace
 from functools import cache
+from math import tanh
 
 import numpy as np
 
@@ -28,7 +29,7 @@ def hardening(t, x, v):
 
 
 def friction(t, x, v):
-    return 0.6 * np.tanh(v / 0.005)
+    return 0.6 * tanh(v / 0.005)
 
 
 @cache

@@ -11,7 +11,7 @@ import pytest
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
-from pipeline.effects.typical import ASPERITIES, CHANNEL, CHANNEL_PAIR, Typical
+from pipeline.effects.typical import ASPERITIES, CHANNEL, CHANNEL_PAIR, Typical, typical
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.force_residual import equation_residual
 from pipeline.physics.virtual_rig.response import Responder, respond
@@ -30,10 +30,16 @@ UPPER = 0.75        # quartile: in the middle of a prior of either sign lies the
 
 
 @cache
+def sizes(kind, law, location):
+    """Typical quantities, which all effects of a kind of location share, on the bench with this contact law."""
+    return typical(kind, BENCHES[law], location, (RUN,))
+
+
+@cache
 def everywhere(effect, law="penalty"):
     """(location, parameters) at each location of the bench with this contact law."""
-    bench = BENCHES[law]
-    return [(location, effect.at(bench, location, (RUN,))) for location in effect.locations(bench)]
+    return [(location, effect.parameters(sizes(effect.kind_at(location), law, location)))
+            for location in effect.locations(BENCHES[law])]
 
 
 def answered(calculate):
@@ -147,6 +153,12 @@ def test_linear_parameters_are_linear_in_the_equation_of_motion(effect):
     assert abs(some - none).max() > 0
     elastic = location == "joint_0" and effect.stage == "friction"     # a way to stick that grows with the force
     assert np.linalg.norm(full - 2 * some + none) <= (0.1 if elastic else 1e-6) * np.linalg.norm(some - none)
+
+
+def test_parameters_at_a_location_are_those_of_its_typical_quantities():
+    for effect in (named("coulomb"), named("runout"), named("sensor_gain")):
+        location, parameters = everywhere(effect)[0]
+        assert effect.at(BASE, location, (RUN,)) == parameters
 
 
 def test_names_are_unique_and_found():

@@ -3,6 +3,8 @@
 Each is what the equation of its module says. The force of a law is what it adds to the equation of motion of one mass.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -79,9 +81,15 @@ def force(effect, values, x):
     return (equation_residual(changed, RUN, {"x": x}) - equation_residual(BENCH, RUN, {"x": x}))[0]
 
 
+@cache
+def priors(effect):
+    """Parameters of a law at its first location."""
+    return effect.at(BENCH, effect.locations(BENCH)[0], (FREE,))
+
+
 def drawn(effect, quantiles):
     """Values of a law at quantiles of its priors, drawn one by one."""
-    parameters = effect.at(BENCH, effect.locations(BENCH)[0], (FREE,))
+    parameters = priors(effect)
     return {p.name: float(p.prior.quantile(quantiles.draw(QUANTILES))) for p in parameters}, parameters
 
 
