@@ -165,8 +165,7 @@ def detect(found, detector):
 def _related_tones(spectrum, found, detector):
     """Frequencies, levels, orders and fundamentals of the tones of the band in the spectrum (line,) of one frame of
     Frames, strongest first."""
-    frequency, levels = _tones(spectrum, found, detector, detector.band)
-    below, _ = _tones(spectrum, found, detector, (detector.lowest_fundamental, detector.band[0]))
+    (frequency, levels), (below, _) = _tones(spectrum, found, detector)
     below = below[below >= detector.lowest_fundamental]
     accuracy = detector.accuracy * found.frequency[1]
     order, fundamental = ladders(np.concatenate([frequency, below]), accuracy, detector.chance)
@@ -175,15 +174,21 @@ def _related_tones(spectrum, found, detector):
     return frequency, levels, order[:len(frequency)], fundamental[:len(frequency)]
 
 
-def _tones(spectrum, found, detector, band):
-    """Frequencies and levels of the tones of one frame in a band (lowest, highest) [Hz], strongest first."""
+def _tones(spectrum, found, detector):
+    """(Frequencies, levels) of the tones of one frame, strongest first: those of the band, and those below it."""
     levels = level(spectrum**2, detector.reference)
     lines = scipy.signal.find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
-    lines = lines[found.inside(band)[lines]]
+    bands = [found.inside(band) for band in (detector.band, (detector.lowest_fundamental, detector.band[0]))]
+    lines = lines[(bands[0] | bands[1])[lines]]
     if detector.above:
         lines = lines[levels[lines] >= _about(levels, lines) + detector.above]
     frequency, root_mean_square = _refine(spectrum, found, lines)
     levels = level(root_mean_square**2, detector.reference)
+    return [_strongest(frequency[inside[lines]], levels[inside[lines]], detector) for inside in bands]
+
+
+def _strongest(frequency, levels, detector):
+    """Tones that reach the threshold and are within the range of the strongest, strongest first."""
     lowest = max(detector.threshold, levels.max(initial=-np.inf) - detector.range)
     order = [i for i in np.argsort(-levels, kind="stable") if levels[i] >= lowest]
     return frequency[order], levels[order]
