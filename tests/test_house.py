@@ -142,6 +142,7 @@ MOST_FILES = 16
 LONG = {"pipeline.physics.time_stepping.step_loop.integrate"}
 
 
+@cache
 def dotted(path):
     name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
     return name.removesuffix(".__init__")
@@ -162,16 +163,29 @@ def imports(nodes):
                 yield f"{node.module}.{alias.name}"
 
 
+@cache
 def everywhere(path):
-    return list(imports(ast.walk(tree(path))))
+    return tuple(imports(ast.walk(tree(path))))
+
+
+@cache
+def holders(name):
+    """A dotted name and the packages that it is in, from the inside out."""
+    parts = name.split(".")
+    return tuple(".".join(parts[:k]) for k in range(len(parts), 0, -1))
 
 
 def within(name, allowed):
-    return any(name == a or name.startswith(a + ".") for a in allowed)
+    return any(holder in allowed for holder in holders(name))
+
+
+def innermost(name, known):
+    """The longest of the ``known`` names that a name is within, None where it is in none."""
+    return next((holder for holder in holders(name) if holder in known), None)
 
 
 def layer_of(path):
-    return max((k for k in MAY_IMPORT if within(dotted(path), {k})), key=len, default=None)
+    return innermost(dotted(path), MAY_IMPORT)
 
 
 def test_imports_point_inwards():
@@ -207,8 +221,7 @@ def test_contributing_states_what_each_package_may_import():
 
 def test_no_import_circle():
     names = {dotted(path) for path in FILES}
-    graph = {dotted(path): {max((k for k in names if within(n, {k})), key=len, default=None) for n in everywhere(path)}
-             - {None, dotted(path)} for path in FILES}
+    graph = {dotted(path): {innermost(n, names) for n in everywhere(path)} - {None, dotted(path)} for path in FILES}
     list(TopologicalSorter(graph).static_order())       # CycleError names the circle
 
 
