@@ -9,7 +9,7 @@ terms as were tried, is below a hundredth. What was found is tested on groups of
 """
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, lru_cache, partial
 from itertools import combinations
 
 import numpy as np
@@ -28,6 +28,8 @@ WITHIN = 2.0
 _RANGE, _KELVIN, _GROWS = 1.5, 15.0, 0.01
 #: largest factor on the distance, factors tried first, step of its derivative
 _FACTOR, _COARSE, _STEP = 20.0, 13, 1e-3
+#: stretches of the distance whose coefficients are kept: those of the coarse search, and of a fine one
+_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -97,8 +99,8 @@ def update(law, samples, map_std=(0.0, 0.0, 0.0, 0.0, 0.0)):
         raise ConfigError("friction_update", "three measured coefficients of friction at least", str(len(samples)),
                           "more of them, best over pressure, speed and distance")
     mapped, outside = law.evaluate(samples.pressure, samples.speed, samples.distance)
-    tested = _told(law, samples)
-    every = sorted((_fit(law, samples, terms) for size in range(len(tested) + 1)
+    tested, beside = _told(law, samples), _Beside(law, samples)
+    every = sorted((_fit(beside, terms) for size in range(len(tested) + 1)
                     for terms in combinations(tested, size) if size < len(samples) - 1), key=lambda f: f.bic)
     best = next(f for f in every if (_p_values(f, len(samples)) * max(len(tested), 1) < SIGNIFICANT).all())
     whole = max(every, key=lambda f: len(f.terms))
@@ -106,7 +108,7 @@ def update(law, samples, map_std=(0.0, 0.0, 0.0, 0.0, 0.0)):
     value[list(whole.terms)], std[list(whole.terms)] = whole.values, whole.std
     p_value[list(whole.terms)] = _p_values(whole, len(samples))
     return Update(best, tuple(every), tested, value, std, p_value, np.array(map_std, float), np.log(mapped),
-                  best.predicted, _unseen(law, samples, best), outside)
+                  best.predicted, _unseen(beside, best), outside)
 
 
 def _told(law, samples):
@@ -126,33 +128,56 @@ def _told(law, samples):
     return tuple(told)
 
 
-def _fit(law, samples, terms, chosen=None):
-    """Fitted to the ``chosen`` (n,) samples, all by default, and predicted for all.
+class _Beside:
+    """What all fits of a FrictionLaw to the same Samples share."""
+
+    def __init__(self, law, samples):
+        self.samples, self._law = samples, law
+        self.measured, self.error = np.log(samples.friction), samples.friction_std / samples.friction
+        self.mapped = lru_cache(_KEPT)(self._mapped)        # every fit begins with the same coarse search
+
+    def _mapped(self, stretch):
+        """ln mu (n,) of the law at distances times e^``stretch``."""
+        samples = self.samples
+        return np.log(self._law.evaluate(samples.pressure, samples.speed, np.exp(stretch) * samples.distance)[0])
+
+    @cached_property
+    def _linear(self):
+        samples = self.samples
+        return {LEVEL: np.ones(len(samples)), PRESSURE: np.log(samples.pressure / scipy.stats.gmean(samples.pressure)),
+                SPEED: np.log(samples.speed / scipy.stats.gmean(samples.speed)),
+                TEMPERATURE: samples.temperature.mean() - samples.temperature}
+
+    def columns(self, terms):
+        """Change of ln mu (n, k) by linear ``terms`` of one, about the means of the samples."""
+        return np.array([self._linear[t] for t in terms]).reshape(-1, len(self.samples)).T
+
+
+def _fit(beside, terms, chosen=None):
+    """Fitted to the ``chosen`` (n,) samples of a _Beside, all by default, and predicted for all.
 
     The factor on the distance is searched; all other terms are linear. The scatter between tests weighs the samples,
     and is told by what they leave.
     """
-    chosen = np.ones(len(samples), bool) if chosen is None else chosen
-    measured, error = np.log(samples.friction), samples.friction_std / samples.friction
-    columns, scatter, farther = _columns(samples, [t for t in terms if t != DISTANCE]), 0.0, 0.0
+    chosen = np.ones(len(beside.samples), bool) if chosen is None else chosen
+    measured, error, mapped = beside.measured, beside.error, beside.mapped
+    columns, scatter, farther = beside.columns([t for t in terms if t != DISTANCE]), 0.0, 0.0
     place = terms.index(DISTANCE) if DISTANCE in terms else None
 
-    def mapped(stretch):
-        return np.log(law.evaluate(samples.pressure, samples.speed, np.exp(stretch) * samples.distance)[0])
-
-    def solved(stretch, weight):
+    def solved(stretch, weight, weighed):
         base = mapped(stretch)
-        values = np.linalg.lstsq(weight[:, None] * columns[chosen], weight * (measured - base)[chosen], rcond=None)[0]
+        values = np.linalg.lstsq(weighed, weight * (measured - base)[chosen], rcond=None)[0]
         return values, base + columns @ values
 
-    def square(stretch, weight):
-        return np.sum((weight * (measured - solved(stretch, weight)[1])[chosen]) ** 2)
+    def square(stretch, weight, weighed):
+        return np.sum((weight * (measured - solved(stretch, weight, weighed)[1])[chosen]) ** 2)
 
     for _ in range(3):
         weight = 1 / np.sqrt(_variance(error, scatter**2))[chosen]
+        weighed = weight[:, None] * columns[chosen]
         if place is not None:
-            farther = _lowest(partial(square, weight=weight))
-        values, predicted = solved(farther, weight)
+            farther = _lowest(partial(square, weight=weight, weighed=weighed))
+        values, predicted = solved(farther, weight, weighed)
         scatter = _scatter((measured - predicted)[chosen], error[chosen], len(terms))
     spread, left = _variance(error, scatter**2)[chosen], (measured - predicted)[chosen]
     if place is not None:
@@ -162,14 +187,6 @@ def _fit(law, samples, terms, chosen=None):
     minus = np.sum(np.log(spread) + left**2 / spread)
     return Fitted(tuple(terms), values, covariance, scatter, float(minus + (len(terms) + 1) * np.log(chosen.sum())),
                   predicted)
-
-
-def _columns(samples, terms):
-    """Change of ln mu (n, k) by linear ``terms`` of one, about the means of the samples."""
-    every = {LEVEL: np.ones(len(samples)), PRESSURE: np.log(samples.pressure / scipy.stats.gmean(samples.pressure)),
-             SPEED: np.log(samples.speed / scipy.stats.gmean(samples.speed)),
-             TEMPERATURE: samples.temperature.mean() - samples.temperature}
-    return np.array([every[t] for t in terms]).reshape(-1, len(samples)).T
 
 
 def _lowest(square):
@@ -183,7 +200,11 @@ def _lowest(square):
 def _variance(error, square):
     """Of samples (n,) with a standard ``error`` each, and this ``square`` of a scatter; above that of samples that
     state no error and scatter not at all."""
-    return np.maximum(error**2 + square, max(1e-12, float(np.median(error)) ** 2 * 1e-6))
+    return np.maximum(error**2 + square, _least_variance(error))
+
+
+def _least_variance(error):
+    return max(1e-12, float(np.median(error)) ** 2 * 1e-6)
 
 
 def _scatter(left, error, terms):
@@ -191,10 +212,10 @@ def _scatter(left, error, terms):
 
     Paule & Mandel, J. Res. NBS 87 (1982) 377.
     """
-    freedom = max(len(left) - terms, 1)
+    freedom, least, squares, errors = max(len(left) - terms, 1), _least_variance(error), left**2, error**2
 
     def excess(square):
-        return np.sum(left**2 / _variance(error, square)) - freedom
+        return np.sum(squares / np.maximum(errors + square, least)) - freedom
 
     high = 4 * np.sum(left**2) / freedom + 1e-12
     if excess(0.0) <= 0:
@@ -208,13 +229,13 @@ def _p_values(fitted, count):
     return 2 * scipy.stats.t.sf(ratio, max(count - len(fitted.terms), 1))
 
 
-def _unseen(law, samples, best):
+def _unseen(beside, best):
     """ln mu (n,), each group of samples predicted by the terms of ``best`` fitted to the others alone."""
     unseen = np.array(best.predicted)
-    for group in groups(samples):
+    for group in groups(beside.samples):
         rest = ~group
         if best.terms and rest.sum() > len(best.terms):
-            unseen[group] = _fit(law, samples, best.terms, rest).predicted[group]
+            unseen[group] = _fit(beside, best.terms, rest).predicted[group]
     return unseen
 
 
