@@ -154,10 +154,14 @@ class Bench:
         rows = {quantity: np.zeros((len(time), self.size)) for quantity in UNIT}
         for i in range(len(time)):
             for _ in range(_FINER):
-                elongation = np.diff(x, prepend=base[i])
-                joint = stiffness * elongation + damping * np.diff(v, prepend=0.0)
+                elongation, closing = x.copy(), v.copy()
+                elongation[0] -= base[i]
+                elongation[1:] -= x[:-1]
+                closing[1:] -= v[:-1]
+                joint = stiffness * elongation + damping * closing
                 joint[0] += typical * hidden(elongation[0] / 0.02, v[0])
-                total = -joint + np.append(joint[1:], 0.0)
+                total = -joint
+                total[:-1] += joint[1:]
                 total[-1] += force[i]
                 a = total / self.mass
                 v = v + step * a

@@ -11,6 +11,7 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.files import as_json
+from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.latent_force import LatentRun
@@ -18,7 +19,7 @@ from pipeline.diagnosis.signals.latent_force_law import LABEL, LatentLaw, regres
 from pipeline.inference.search.gp_latent_force import Dependence
 from tests.case_models.test_force_balance import BALANCED
 from tests.diagnosis.small_rig import FINE, HIDDEN, NOISE, laid_out, model, recording
-from tests.diagnosis.solving import diagnosis_product
+from tests.diagnosis.solving import solved
 
 TIME = np.linspace(0, 20, 4001)
 X, V = 1e-2 * np.sin(3 * TIME) + 4e-3 * np.cos(7.1 * TIME), 3e-2 * np.cos(3 * TIME) - 2.84e-2 * np.sin(7.1 * TIME)
@@ -61,15 +62,26 @@ def test_as_elements_it_is_the_force_that_was_hidden():
 
 
 @cache
-def told(forward, predict):
-    """Product Diagnosis of a cubic spring that the weighed effects lack."""
+def posed(forward, predict):
+    """DiagnosisProblem of a cubic spring that the weighed effects lack."""
     settings = laid_out(**(BALANCED if forward is force_balance_problem else {}))
     noise = {"force on block": "0.2 N"} if forward is force_balance_problem else {"x": f"{NOISE} m"}
     section = fill(Settings, {**ASKED, "noise": {"std": noise}, "latent_force": {"predict": predict}}, "d")
     runs = recorded(recording(HIDDEN, noise=1e-5 if forward is force_balance_problem else NOISE), settings)
     whole = benches.built(model(), settings)
     equation = [settings.equation] if forward is force_balance_problem else []
-    return diagnosis_product(forward(whole, runs, section, *equation), kept=2)
+    return forward(whole, runs, section, *equation)
+
+
+@cache
+def answered(forward):
+    """Its Diagnosis, which does not depend on what the latent force is used for."""
+    return solved(posed(forward, False), kept=2)
+
+
+def told(forward, predict):
+    """Its product."""
+    return product(posed(forward, predict), answered(forward))
 
 
 @pytest.mark.parametrize("forward", [forced_problem, force_balance_problem])
