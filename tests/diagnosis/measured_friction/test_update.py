@@ -58,6 +58,17 @@ def test_scatter_between_tests_is_told_and_does_not_become_a_law():
     assert told.best.scatter == pytest.approx(0.05, rel=0.3) and told.verdict == "consistent"
 
 
+@pytest.mark.exact
+def test_the_scatter_is_what_stated_errors_leave():
+    """Squares over the variances of both sum up to the degrees of freedom; errors that suffice leave none."""
+    random = np.random.default_rng(6)
+    error = random.uniform(0.01, 0.03, 40)
+    left = np.hypot(error, 0.02) * random.standard_normal(40)
+    found = module._scatter(left, error, 2)
+    assert found > 0 and np.sum(left**2 / (error**2 + found**2)) == pytest.approx(38, rel=1e-6)
+    assert module._scatter(0.9 * error, error, 2) == 0.0
+
+
 def test_a_change_within_the_error_of_the_map_may_be_chance_of_its_surfaces():
     told = update(LAW, measured(1, level=0.05), (0.04, 0.0, 0.0, 0.0, 0.0))
     assert [TERMS[t] for t in told.best.terms] == ["level"] and told.verdict == "chance"
