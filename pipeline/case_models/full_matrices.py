@@ -6,11 +6,14 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConvergenceError
+from pipeline.physics.numerics.sparse_solver import Successive
 from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint
 from pipeline.physics.sliding.unreduced_equilibrium import Solutions
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.full_roots import Guess, families, full_roots
 
+#: tasks of the fan-out at most, each of several families
+_PARTS = 8
 #: roots of one operating point that differ by less than this share are the same
 _SAME = 1e-6
 
@@ -90,10 +93,13 @@ def full_modes(about, models, modes, describe, settings, context):
     tasks = [[(*about[m.operating], m.root,
                np.concatenate([rows @ m.motion for rows in _rows(models[m.operating])]))
               for m in (modes[k] for k in oscillating[group])] for group in groups]
-    results = context.map(partial(_family, describe, settings, context.solver), tasks, "full finite-element matrices")
-    for group, found in zip(groups, results, strict=True):
-        for k, mode in zip(oscillating[group], found, strict=True):
-            solved[k] = mode
+    parts = [slice(k, None, _PARTS) for k in range(min(_PARTS, len(tasks)))]
+    results = context.map(partial(_families, describe, settings, context.solver), [tasks[part] for part in parts],
+                          "full finite-element matrices")
+    for part, families_of in zip(parts, results, strict=True):
+        for group, found in zip(groups[part], families_of, strict=True):
+            for k, mode in zip(oscillating[group], found, strict=True):
+                solved[k] = mode
     _refuse_same(modes, solved)
     return solved
 
@@ -116,12 +122,18 @@ def _refuse_same(modes, solved):
                                    "set complex_modes.residual_tolerance: null")
 
 
-def _family(describe, settings, solver, task):
+def _families(describe, settings, solver, tasks):
+    """[A FullMode for each operating point] of some families of roots of one brake."""
+    operator = SharedOperator.of(tasks[0][0][0], settings.gyroscopic, settings.centrifugal)
+    find = partial(_family, describe, settings, operator, Successive(solver))
+    return [find(task) for task in tasks]
+
+
+def _family(describe, settings, operator, factors, task):
     """A FullMode for each operating point of a family of roots."""
     guesses = [Guess(root, motion, SlidingPoint.of(model, sliding.acting(settings.friction_slopes),
                                                    settings.friction_damping)) for model, sliding, root, motion in task]
-    operator = SharedOperator.of(task[0][0], settings.gyroscopic, settings.centrifugal)
-    solved, found = full_roots(guesses, operator, solver, settings.residual_tolerance), []
+    solved, found = full_roots(guesses, operator, factors, settings.residual_tolerance), []
     for (model, sliding, *_), mode in zip(task, solved, strict=True):
         (terms,), (contacts,), (shares,) = describe(model, sliding, np.array([mode.root]), mode.vector[:, None])
         found.append(FullMode(mode.root, mode.residual, terms, contacts, shares))

@@ -8,7 +8,7 @@ import scipy
 from pipeline.case_models.refinement.unreduced_brake import BodyMatrices, freedoms, unreduced
 from pipeline.physics.modal.followed_roots import followed_roots
 from pipeline.physics.numerics.memory import refuse_beyond_memory
-from pipeline.physics.numerics.sparse_solver import factorise, refactorise
+from pipeline.physics.numerics.sparse_solver import Successive, factorise
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint
@@ -98,7 +98,7 @@ class _Search:
 
     def __init__(self, operator, shared, point, solver, tolerance):
         self._operator, self._shared, self._point = operator, shared, point
-        self._solver, self._tolerance, self._factor = solver, tolerance, None
+        self._solver, self._tolerance, self._symmetric = solver, tolerance, Successive(solver)
 
     def followed(self, sought, motion):
         """(root (g,), likeness (g,)) of modes ``sought`` (g,) by rising frequency, whose contacts move by ``motion``
@@ -107,9 +107,9 @@ class _Search:
         for group in families(sought.imag):
             target = _BESIDE * 1j * np.sqrt(sought[group[0]].imag * sought[group[-1]].imag)
             task = sought[group], motion[:, group]
-            found = self._found(self._symmetric(target), *task)
+            found = self._found(self._symmetric.factor(self._shared.symmetric(self._point, target)), *task)
             if np.isnan(found.root).any():
-                self._factor = None         # its memory goes before that of the larger one
+                self._symmetric.forget()        # its memory goes before that of the larger one
                 found = self._found(self._whole(target), *task)
             root[group], likeness[group] = found.root, found.likeness
         return root, likeness
@@ -119,12 +119,6 @@ class _Search:
         forces = np.stack([self._shared.moving(self._point, *mode) for mode in modes], axis=1)
         return followed_roots(self._operator, lambda b: factor.solve(b).astype(complex), sought, forces,
                               self._shared.rows, motion, self._tolerance)
-
-    def _symmetric(self, target):
-        matrix = self._shared.symmetric(self._point, target)
-        self._factor = (refactorise(self._factor, matrix) if self._factor
-                        else factorise(matrix, self._solver, single=True))
-        return self._factor
 
     def _whole(self, target):
         mass, damping, stiffness = self._operator

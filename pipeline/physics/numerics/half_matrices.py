@@ -1,7 +1,8 @@
-"""Products of large sparse matrices, symmetric or skew, with a few complex vectors, for which one half is read: memory
-that is read takes the time, not arithmetic."""
+"""Large sparse matrices, symmetric or skew, of which one half is kept, and their products with a few complex vectors:
+memory that is read takes the time, not arithmetic."""
 
 import numpy as np
+import scipy
 
 from pipeline.physics.numerics.compiled import njit
 
@@ -20,6 +21,18 @@ class Half:
         size = count_upper(matrix.indptr, matrix.indices, self._indptr)
         self._indices, self._parts = np.empty(size, np.int32), np.empty((parts.shape[1], size))
         take_upper(matrix.indptr, matrix.indices, parts, self._indices, self._parts)
+
+    @property
+    def size(self):
+        """Number of entries of the triangle."""
+        return len(self._indices)
+
+    def upper(self, factor=1):
+        """``factor`` times the triangle, sparse by rows, in single precision."""
+        part, size = np.empty(self.size, np.complex64), len(self._indptr) - 1
+        part.real, part.imag = self._parts[0], self._parts[1] if len(self._parts) > 1 else 0.0
+        part *= np.complex64(factor)
+        return scipy.sparse.csr_matrix((part, self._indices, self._indptr.astype(np.int32)), (size, size))
 
     def images(self, vectors):
         """(A x, A^H x), each (n, g), of complex ``vectors`` x (n, g)."""

@@ -4,6 +4,7 @@ import ctypes
 import os
 import sys
 import weakref
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -30,6 +31,28 @@ _PATTERN = "MMD_AT_PLUS_A"
 _ORDERS = {True: ((_PATTERN, 0.0), (_PATTERN, 1.0)), False: ((_PATTERN, 0.01), ("COLAMD", 1.0))}
 
 
+@dataclass(frozen=True)
+class Upper:
+    """A = A^T (n, n) by its upper triangle ``part``, a sparse matrix by rows."""
+
+    part: "scipy.sparse.csr_matrix"
+
+    @property
+    def shape(self):
+        return self.part.shape
+
+    @property
+    def dtype(self):
+        return self.part.dtype
+
+    def __matmul__(self, vector):
+        return self.part @ vector + self.part.T @ vector - self.part.diagonal() * vector
+
+    def whole(self):
+        """A (n, n), sparse, by rows."""
+        return (self.part + self.part.T - scipy.sparse.diags(self.part.diagonal())).tocsr()
+
+
 def available():
     """Names of the solvers installed here, fastest first."""
     return (*(("pypardiso",) if find_spec("pypardiso") and (_runtime() or _library()) else ()), "superlu")
@@ -40,7 +63,7 @@ def factorise(matrix, solver, symmetric=True, single=False):
 
     Parameters
     ----------
-    matrix : (n, n) sparse, real or complex
+    matrix : (n, n) sparse, real or complex, or an Upper
     solver : "pypardiso" or "superlu"
     symmetric : True for A = A^T (indefinite allowed; complex means symmetric, not Hermitian)
     single : True for a factor in single precision, of half the size, whose solutions an iteration improves: they may
@@ -57,11 +80,11 @@ def factorise(matrix, solver, symmetric=True, single=False):
     """
     if solver not in _BACKENDS:
         raise ConfigError("linear solver", f"one of {', '.join(_BACKENDS)}", repr(solver))
-    matrix = scipy.sparse.csr_matrix(matrix)
-    matrix.sort_indices()
-    if not np.isfinite(matrix.data).all():
+    matrix = _by_rows(matrix)
+    stored = matrix.part if isinstance(matrix, Upper) else matrix
+    if not np.isfinite(stored.data).all():
         raise ConvergenceError("factorisation", "finite matrix entries", "NaN or infinity")
-    if (np.diff(matrix.indptr) == 0).any():
+    if (np.diff(stored.indptr) == 0).any():
         raise _singular(matrix, "an empty row")
     factor = _BACKENDS[solver](matrix, symmetric, single)
     miss = _miss(matrix, factor)
@@ -70,12 +93,32 @@ def factorise(matrix, solver, symmetric=True, single=False):
     return factor
 
 
-def refactorise(factor, matrix):
-    """Factor of a sparse ``matrix`` (n, n) with the entries of that of ``factor``, whose place and order it takes.
+class Successive:
+    """Factors in single precision, one at a time, of symmetric matrices with the same entries, which are put in order
+    once: half of the time of a factor."""
 
-    Raises ConvergenceError for a singular matrix.
-    """
-    return factor.of_another(scipy.sparse.csr_matrix(matrix))
+    def __init__(self, solver):
+        self._solver, self._factor = solver, None
+
+    def factor(self, matrix):
+        """That of a ``matrix`` (n, n), sparse or Upper, in the place of the one before; errors as of ``factorise``."""
+        if self._factor is None:
+            self._factor = factorise(matrix, self._solver, single=True)
+        else:
+            self._factor = self._factor.of_another(_by_rows(matrix))
+        return self._factor
+
+    def forget(self):
+        """Let go of the memory of the last one."""
+        self._factor = None
+
+
+def _by_rows(matrix):
+    """The matrix, sparse or Upper, by rows in the order of their columns."""
+    part = matrix.part if isinstance(matrix, Upper) else matrix
+    part = scipy.sparse.csr_matrix(part)
+    part.sort_indices()
+    return Upper(part) if isinstance(matrix, Upper) else part
 
 
 class _Factor:
@@ -95,7 +138,7 @@ class _Factor:
 
 def _kind(matrix, single):
     """Type of the numbers of a factor."""
-    double, half = (complex, np.complex64) if np.iscomplexobj(matrix) else (float, np.float32)
+    double, half = (complex, np.complex64) if matrix.dtype.kind == "c" else (float, np.float32)
     return np.dtype(half if single else double)
 
 
@@ -105,7 +148,7 @@ class _SuperLU(_Factor):
 
     def __init__(self, matrix, symmetric, single):
         self.dtype, self._symmetric, self._single = _kind(matrix, single), symmetric, single
-        columns = matrix.astype(self.dtype).tocsc()
+        columns = (matrix.whole() if isinstance(matrix, Upper) else matrix).astype(self.dtype).tocsc()
         for order, threshold in _ORDERS[symmetric]:
             self._factor = _lu(columns, order, threshold)
             if _miss(matrix, self) < (_ACCURATE_SINGLE if single else _ACCURATE):
@@ -171,8 +214,6 @@ class _Pardiso(_Factor):
         return release
 
     def of_another(self, matrix):
-        """The order of columns, which takes as long as half of a factor, is that of the matrix before."""
-        matrix.sort_indices()
         stored = _upper_triangle(matrix) if self._symmetric else matrix
         self._call.matrix = stored.astype(self.dtype, copy=False)
         self._call(_FACTORISE)
@@ -184,20 +225,28 @@ class _Pardiso(_Factor):
 
 
 def _upper_triangle(matrix):
-    """Upper triangle in CSR, of rows none of which is empty, with every diagonal entry stored, zero or not, as PARDISO
-    wants it."""
-    rows = np.repeat(np.arange(matrix.shape[0], dtype=matrix.indices.dtype), np.diff(matrix.indptr))
-    kept = matrix.indices >= rows
-    counts = np.add.reduceat(kept, matrix.indptr[:-1], dtype=matrix.indptr.dtype)
-    indptr = np.concatenate(([0], np.cumsum(counts)))
-    diagonal = np.zeros(matrix.shape[0], bool)
-    diagonal[rows[matrix.indices == rows]] = True
-    upper = scipy.sparse.csr_matrix((matrix.data[kept], matrix.indices[kept], indptr), matrix.shape)
-    if diagonal.all():
+    """Upper triangle in CSR of a matrix, sparse or Upper, of rows none of which is empty, with every diagonal entry
+    stored, zero or not, as PARDISO wants it."""
+    upper = matrix.part if isinstance(matrix, Upper) else _upper_part(matrix)
+    rows = _rows(upper)
+    lacking = np.setdiff1d(np.arange(upper.shape[0]), rows[upper.indices == rows], assume_unique=True)
+    if not len(lacking):
         return upper
-    lacking, upper = np.flatnonzero(~diagonal), upper.tocoo()
+    upper = upper.tocoo()
     rows, columns = np.r_[upper.row, lacking], np.r_[upper.col, lacking]
     return scipy.sparse.csr_matrix((np.r_[upper.data, 0 * lacking], (rows, columns)), matrix.shape)
+
+
+def _upper_part(matrix):
+    kept = matrix.indices >= _rows(matrix)
+    counts = np.add.reduceat(kept, matrix.indptr[:-1], dtype=matrix.indptr.dtype)
+    return scipy.sparse.csr_matrix((matrix.data[kept], matrix.indices[kept], np.concatenate(([0], np.cumsum(counts)))),
+                                   matrix.shape)
+
+
+def _rows(matrix):
+    """Row (nnz,) of each entry of a matrix by rows."""
+    return np.repeat(np.arange(matrix.shape[0], dtype=matrix.indices.dtype), np.diff(matrix.indptr))
 
 
 class _PardisoCall:

@@ -7,13 +7,13 @@ differ in the speed W and in the coefficients D and E of the contacts alone.
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 import scipy
 
 from pipeline.physics.numerics.half_matrices import Half
 from pipeline.physics.numerics.orthonormal import orthonormal_beside, within
+from pipeline.physics.numerics.sparse_solver import Upper
 from pipeline.physics.sliding.model import spread
 
 #: powers of s and W that the gyroscopic matrix stands with
@@ -46,8 +46,8 @@ class SlidingPoint:
 
 @dataclass(frozen=True)
 class SharedOperator:
-    """``terms``: each a sparse matrix (n, n), real or complex, and the powers of s and W that it stands with; all are
-    symmetric but the gyroscopic one, which is real and skew. ``rows`` B (3c, n)."""
+    """``terms``: each the Half of a matrix (n, n), real or complex, and the powers of s and W that it stands with; all
+    are symmetric but the gyroscopic one, which is real and skew. ``rows`` B (3c, n)."""
 
     terms: tuple
     rows: "scipy.sparse.csr_matrix"
@@ -61,19 +61,22 @@ class SharedOperator:
         terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
         terms += [(model.centrifugal, 0, 2)] if centrifugal else []
         contacts = model.contacts
-        return cls(tuple(term for term in terms if term[0].count_nonzero()),
+        halves = [(Half(matrix, -1 if tuple(powers) == _GYROSCOPIC else 1), *powers) for matrix, *powers in terms
+                  if matrix.count_nonzero()]
+        return cls(tuple(halves),
                    scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral), format="csr"))
 
     def symmetric(self, point, root):
-        """The symmetric part of T(``root``) (n, n), sparse, at a SlidingPoint: without what friction transfers from
-        normal to tangential motion, and without what turns with the speed."""
+        """The symmetric part of T(``root``), an Upper in single precision, at a SlidingPoint: without what friction
+        transfers from normal to tangential motion, and without what turns with the speed."""
         contact = (point.by_place + root * point.by_speed).diagonal()
-        whole = (self.rows.T @ (scipy.sparse.diags(contact) @ self.rows)).tocsr()
+        whole = scipy.sparse.triu(self.rows.T @ (scipy.sparse.diags(contact) @ self.rows), format="csr")
+        whole = whole.astype(np.complex64)
         whole.sort_indices()        # sums of sorted rows are quick
-        for matrix, order, power in sorted(self.terms, key=lambda term: term[0].nnz):
+        for half, order, power in sorted(self.terms, key=lambda term: term[0].size):
             if not power:
-                whole = whole + (root**order * matrix if order else matrix)
-        return whole
+                whole = whole + half.upper(root**order if order else 1)
+        return Upper(whole)
 
     def drawn(self, point, root, motion):
         """(n,) N: forces of friction at a ``motion`` (3c,) of the contacts, which ``symmetric`` leaves out."""
@@ -86,13 +89,9 @@ class SharedOperator:
         drawn = self.drawn(point, root, motion)
         return drawn if drawn.any() else self.rows.T @ motion
 
-    @cached_property
-    def _halves(self):
-        return [Half(matrix, -1 if tuple(powers) == _GYROSCOPIC else 1) for matrix, *powers in self.terms]
-
     def images(self, vectors):
         """[(A x, A^H x), each (n, g), of every term A] and x of complex ``vectors`` (n, g)."""
-        return [half.images(vectors) for half in self._halves]
+        return [half.images(vectors) for half, *_ in self.terms]
 
     def forces(self, points, roots, vectors):
         """(T(s) x, K x), each (n, g) N, of motions x (n, g) at SlidingPoints and ``roots`` s (g,)."""

@@ -5,9 +5,9 @@ Contact i carries N_i = A_i p(c_i) at its closure c_i = -(n_i q) - g_i, and fric
     K q = f + sum_i (n_i + s_i mu_i t_i) N_i.                                                                       (1)
 
 The derivative of (1) is the stiffness of the small motion. Each step is solved for by GMRES with the factor of the
-first one: contacts that open or stiffen change few directions of it. A step that leaves larger forces out of balance is
-halved. Other than ``equilibrium``, which condenses the bodies to their contacts, this costs as much for thousands of
-contacts as for some.
+first one without friction, which is symmetric and half as large: friction, and contacts that open or stiffen, change
+few directions of it. A step that leaves larger forces out of balance is halved. Other than ``equilibrium``, which
+condenses the bodies to their contacts, this costs as much for thousands of contacts as for some.
 """
 
 from collections.abc import Callable
@@ -63,8 +63,9 @@ def sliding_on_elements(model: SlidingModel, input_force: np.ndarray, law: tuple
 
 
 class Solutions:
-    """Solutions of linear equations by GMRES with the factor of a matrix before, or of the last where that is slow;
-    ``last``: the motion (n,) of the last state that was found with them, or None."""
+    """Solutions of linear equations by GMRES with the factor of a matrix before, or of the last where that is slow:
+    without friction or, where that is slow too, with it; ``last``: the motion (n,) of the last state that was found
+    with them, or None."""
 
     def __init__(self, solver):
         self._solver, self._factor, self.last = solver, None, None
@@ -72,16 +73,14 @@ class Solutions:
     def __call__(self, matrix, rhs, enough=0.0):
         """x (n,) of A x = b, off by no more than a share of b, which need not be less than half of ``enough``."""
         accuracy = max(_LINEAR, enough / 2)
-        if self._factor is not None:
-            answer, failed = self._iterated(matrix, rhs, accuracy)
+        answer, failed = (None, True) if self._factor is None else self._iterated(matrix, rhs, accuracy)
+        for made, symmetric in ((matrix.without_friction, True), (matrix.assembled, False)):
             if not failed:
-                return answer
-        self._make(matrix.assembled())
-        return self._iterated(matrix, rhs, accuracy)[0]
-
-    def _make(self, matrix):
-        self._factor = None         # its memory goes before that of the next
-        self._factor = factorise(matrix, self._solver, symmetric=False)
+                break
+            self._factor = None         # its memory goes before that of the next
+            self._factor = factorise(made(), self._solver, symmetric)
+            answer, failed = self._iterated(matrix, rhs, accuracy)
+        return answer
 
     def _iterated(self, matrix, rhs, accuracy):
         """(x, 0 or what failed): x = F^-1 y with A F^-1 y = b, so that forces, not motions, are what is left."""
@@ -95,10 +94,12 @@ class Solutions:
 
 @dataclass(frozen=True)
 class _Stiffness:
-    """K + A N, sparse, of ``bodies`` K (n, n) and contacts: ``acting`` A (n, c) at closures by ``normal`` N (c, n)."""
+    """K + A k N, sparse, of ``bodies`` K (n, n) and contacts of ``stiffness`` k (c,) N/m: ``acting`` A (n, c) at
+    closures by ``normal`` N (c, n)."""
 
     bodies: "scipy.sparse.csr_matrix"
     acting: "scipy.sparse.csr_matrix"
+    stiffness: np.ndarray
     normal: "scipy.sparse.csr_matrix"
 
     @property
@@ -106,10 +107,13 @@ class _Stiffness:
         return self.bodies.shape
 
     def __matmul__(self, motion):
-        return self.bodies @ motion + self.acting @ (self.normal @ motion)
+        return self.bodies @ motion + self.acting @ (self.stiffness * (self.normal @ motion))
 
     def assembled(self):
-        return self.bodies + self.acting @ self.normal
+        return self.bodies + self.acting @ (scipy.sparse.diags(self.stiffness) @ self.normal)
+
+    def without_friction(self):
+        return self.bodies + self.normal.T @ (scipy.sparse.diags(self.stiffness) @ self.normal)
 
 
 @dataclass(frozen=True)
@@ -141,7 +145,7 @@ class _Equilibrium:
     def _about(self, state):
         about = model_about(self.model, state.contact)
         acting = about.contacts.normal.T + about.contacts.tangent.T @ scipy.sparse.diags(about.coupling(state.friction))
-        return _Stiffness(self.bodies, acting @ scipy.sparse.diags(state.contact.stiffness), about.contacts.normal)
+        return _Stiffness(self.bodies, acting, state.contact.stiffness, about.contacts.normal)
 
     def out_of_balance(self, motion):
         """(n,) N: left less right side of (1)."""

@@ -5,7 +5,8 @@ it leaves out of the left ones. On the full matrices T(s) = s^2 M + s C + K, spa
 root is sought in a subspace of motions. It begins with the answer to the friction forces of the reduced mode, and grows
 by S^-1 T(s) x, x being the mode of T projected on it (nonlinear Arnoldi iteration: H. Voss, BIT Numer. Math. 44 (2004)
 387). S is the symmetric part of T(s0), whose factor, in single precision, takes a fifth of the time of one of T(s0): it
-says where to go on, not what the root is. Operating points and modes of nearly one frequency share S and the subspace.
+says where to go on, not what the root is. Operating points and modes of nearly one frequency share S and the subspace,
+those of one brake the order in which S is factorised.
 """
 
 from dataclasses import dataclass, replace
@@ -13,8 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.numerics.sparse_solver import factorise
-from pipeline.physics.sliding.shared_operator import SlidingPoint, Subspace
+from pipeline.physics.numerics.sparse_solver import Successive
+from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint, Subspace
 
 #: vectors of a subspace, and rounds that each add one for every root
 _MOST, _ROUNDS = 96, 30
@@ -67,15 +68,16 @@ def families(roots, state):
     return groups
 
 
-def full_roots(guesses, operator, solver, tolerance):
-    """A FullRoot for each Guess of a family, the first of which should be in its middle, on a SharedOperator.
+def full_roots(guesses: list, operator: SharedOperator, factors: Successive, tolerance: float) -> list:
+    """A FullRoot for each Guess of a family, the first of which should be in its middle, on a SharedOperator;
+    ``factors``, of this operator alone, are left for other families.
 
     Raises ConvergenceError where a residual exceeds ``tolerance`` or no such mode lies near the guess.
     """
-    modes = _Search(operator, guesses[0], solver).modes(guesses, tolerance)
+    modes = _Search(operator, guesses[0], factors).modes(guesses, tolerance)
     for k, (guess, mode) in enumerate(zip(guesses, modes, strict=True)):
         if _missed(guess, mode) or mode.likeness < _ALIKE:
-            modes[k] = mode = _Search(operator, guess, solver).modes([guess], tolerance)[0]
+            modes[k] = mode = _Search(operator, guess, factors).modes([guess], tolerance)[0]
         if _missed(guess, mode):
             raise _not_there(guess, mode, tolerance)
     return modes
@@ -89,9 +91,9 @@ def _missed(guess, mode):
 class _Search:
     """The subspace in which roots are sought together, and the factor with which it grows."""
 
-    def __init__(self, operator, guess, solver):
+    def __init__(self, operator, guess, factors):
         self._operator, self._space = operator, Subspace(operator, _MOST)
-        self._factor = factorise(operator.symmetric(guess.point, guess.root), solver, single=True)
+        self._factor = factors.factor(operator.symmetric(guess.point, guess.root))
 
     def modes(self, guesses, tolerance):
         """[FullRoot] from Guesses, each as it is after as many rounds as are allowed and there is room for."""

@@ -64,7 +64,7 @@ def test_modes_of_a_finer_contact_are_those_of_a_whole_search_there(monkeypatch,
     whole, wholes = searched._Search._whole, []
     monkeypatch.setattr(searched._Search, "_whole", lambda self, at: (wholes.append(at), whole(self, at))[1])
     if lost:
-        monkeypatch.setattr(searched._Search, "_symmetric", lambda *_: SimpleNamespace(solve=lambda forces: forces))
+        monkeypatch.setattr(searched.Successive, "factor", lambda *_: SimpleNamespace(solve=lambda forces: forces))
     matrices, section = BodyMatrices(SOLVER), finer(SECTION, ["contact"], 1.5)
     coarse, rows, contacts, closure = operator(SECTION, matrices)
     root, shape = near(coarse, 2j * np.pi * 1500, 3)

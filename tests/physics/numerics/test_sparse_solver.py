@@ -6,7 +6,7 @@ import scipy.sparse as sp
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.numerics import memory
-from pipeline.physics.numerics.sparse_solver import available, factorise
+from pipeline.physics.numerics.sparse_solver import Successive, Upper, available, factorise
 
 pytestmark = pytest.mark.exact
 
@@ -57,6 +57,23 @@ def test_single_precision_solves_unsymmetric_matrices_whatever_their_diagonal(so
     rhs = np.random.default_rng(1).standard_normal(512)
     missed = matrix @ factorise(matrix, solver, symmetric=False, single=True).solve(rhs) - rhs
     assert np.linalg.norm(missed) < 1e-2 * np.linalg.norm(rhs)
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_the_upper_triangle_alone_says_all_of_a_symmetric_matrix(solver, single):
+    """Complex, with a diagonal entry that is not stored; then of another matrix with the same entries."""
+    body, row = laplacian(4) + 0.1j * sp.identity(64), np.ones((1, 64))
+    matrix, rhs = sp.block_array([[None, row], [row.T, body]], format="csr"), np.arange(1.0, 66.0) + 1j
+    upper, near = Upper(sp.triu(matrix, format="csr")), {"rtol": 1e-3 if single else 1e-10}
+    np.testing.assert_array_equal(upper.whole().toarray(), matrix.toarray())
+    np.testing.assert_allclose(upper @ rhs, matrix @ rhs, rtol=1e-14)
+    expected = np.linalg.solve(matrix.toarray(), rhs)
+    np.testing.assert_allclose(factorise(upper, solver, single=single).solve(rhs), expected, **near)
+    if single:
+        successive = Successive(solver)
+        for factor in (1, 2, 3j):
+            found = successive.factor(Upper(factor * upper.part)).solve(rhs)
+            np.testing.assert_allclose(found, expected / factor, **near)
 
 
 def test_saddle_point_with_empty_diagonal(solver):

@@ -9,6 +9,7 @@ import scipy
 
 from pipeline.contract import ConvergenceError
 from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.physics.sliding.equilibrium import closure_response, from_map, steady_sliding
 from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.sliding.unreduced_equilibrium import Solutions, _Equilibrium, sliding_on_elements
@@ -41,13 +42,30 @@ def test_forces_are_those_of_the_bodies_condensed_to_their_contacts(pressure):
     np.testing.assert_allclose(made.friction.coefficient, expected.friction.coefficient, rtol=1e-7)
 
 
-def test_one_factor_serves_states_at_other_loads(monkeypatch):
-    made, shared = [], Solutions("superlu")
-    monkeypatch.setattr(shared, "_make", lambda matrix, make=shared._make: made.append(make(matrix)))
-    model = sparse(sliding_model(BRAKE, 1, 10.0))
+@pytest.fixture
+def factors(monkeypatch):
+    """Whether each factor that is made is of a symmetric matrix."""
+    made, name = [], "pipeline.physics.sliding.unreduced_equilibrium.factorise"
+    monkeypatch.setattr(name, lambda matrix, solver, symmetric: made.append(symmetric)
+                        or factorise(matrix, solver, symmetric))
+    return made
+
+
+def test_one_factor_without_friction_serves_states_at_other_loads(factors):
+    model, shared = sparse(sliding_model(BRAKE, 1, 10.0)), Solutions("superlu")
     forces = [sliding_on_elements(model, load * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][9]),
                                   shared).contact.force.sum() for load in (2e6, 3e6)]
-    assert len(made) == 1 and forces[1] == pytest.approx(1.5 * forces[0], rel=0.05)
+    assert factors == [True] and forces[1] == pytest.approx(1.5 * forces[0], rel=0.05)
+
+
+@pytest.mark.exact
+def test_where_that_is_slow_one_with_friction_does(factors, monkeypatch):
+    model = sparse(sliding_model(BRAKE, 1, 10.0))
+    expected, found = (sliding_on_elements(model, 3e6 * BRAKE.input_area, LAW, FRICTION, np.full(6, LAW[0][9]),
+                                           Solutions("superlu")).contact.force
+                       for _ in map(partial(monkeypatch.setattr, f"{Solutions.__module__}._ITERATIONS"), (40, 1)))
+    assert factors[:3] == [True, True, False]
+    np.testing.assert_allclose(found, expected, rtol=1e-7)
 
 
 @pytest.mark.exact

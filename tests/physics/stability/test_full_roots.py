@@ -7,6 +7,7 @@ import pytest
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.numerics.sparse_solver import Successive
 from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
 from pipeline.physics.sliding.shared_operator import SharedOperator, SlidingPoint
 from pipeline.physics.stability import full_roots as module
@@ -71,24 +72,24 @@ def point(full, friction):
     return SlidingPoint.of(full, friction, friction_damping=False)
 
 
-def counted(monkeypatch):
+class Counted(Successive):
     """Counts the factors that are made."""
-    factors, factorise = [], module.factorise
 
-    def counting(*args, **options):
-        factors.append(args)
-        return factorise(*args, **options)
+    def __init__(self):
+        super().__init__("superlu")
+        self.made = 0
 
-    monkeypatch.setattr(module, "factorise", counting)
-    return factors
+    def factor(self, matrix):
+        self.made += 1
+        return super().factor(matrix)
 
 
-def test_roots_of_a_family_are_those_of_dense_algebra(full, growing, monkeypatch):
+def test_roots_of_a_family_are_those_of_dense_algebra(full, growing):
     """One factor serves operating points with different friction."""
-    factors, guesses = counted(monkeypatch), guessed(full, growing)
-    solved = full_roots(guesses, SharedOperator.of(full), "superlu", 1e-9)
+    factors = Counted()
+    solved = full_roots(guessed(full, growing), SharedOperator.of(full), factors, 1e-9)
     np.testing.assert_allclose([mode.root for mode in solved], [root for root, _ in growing], rtol=1e-9)
-    assert len(factors) == 1
+    assert factors.made == 1
     for mode, mu in zip(solved, FRICTION, strict=True):
         mass, damping, stiffness = matrices(full, mu)
         force = stiffness @ mode.vector
@@ -99,10 +100,10 @@ def test_roots_of_a_family_are_those_of_dense_algebra(full, growing, monkeypatch
 
 def test_a_root_that_finds_no_room_beside_the_others_gets_a_factor_of_its_own(full, growing, monkeypatch):
     monkeypatch.setattr(module, "_MOST", 20)
-    factors, guesses = counted(monkeypatch), guessed(full, growing)
-    solved = full_roots(guesses, SharedOperator.of(full), "superlu", 1e-9)
+    factors = Counted()
+    solved = full_roots(guessed(full, growing), SharedOperator.of(full), factors, 1e-9)
     np.testing.assert_allclose([mode.root for mode in solved], [root for root, _ in growing], rtol=1e-9)
-    assert 1 < len(factors) <= 1 + len(FRICTION)
+    assert 1 < factors.made <= 1 + len(FRICTION)
 
 
 @pytest.mark.parametrize("wrong", ["root", "motion"])
@@ -110,7 +111,7 @@ def test_a_guess_far_from_every_root_is_refused(full, growing, wrong):
     guess = guessed(full, growing)[0]
     far = {"root": 3 * guess.root, "motion": np.roll(guess.motion, 5) * (-1) ** np.arange(len(guess.motion))}[wrong]
     with pytest.raises(ConvergenceError, match="full finite-element matrices: expected the mode of the reduced model"):
-        full_roots([replace(guess, **{wrong: far})], SharedOperator.of(full), "superlu", 1e-9)
+        full_roots([replace(guess, **{wrong: far})], SharedOperator.of(full), Successive("superlu"), 1e-9)
 
 
 def test_families_are_of_one_state_and_nearly_one_frequency_from_the_middle_out():
