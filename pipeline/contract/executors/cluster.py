@@ -10,8 +10,9 @@ from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.executors.local import run_task
 from pipeline.contract.fingerprint import project_digest
 
-#: how often the cluster is looked at while nothing finishes, and how long tasks wait for a first worker [s]
-_LOOK, _PATIENCE = 2.0, 60.0
+#: how long a scheduler may take to answer, how often the cluster is looked at while nothing finishes, and how long tasks
+#: wait for a first worker [s]
+_ANSWER, _LOOK, _PATIENCE = 10.0, 2.0, 60.0
 #: characters shown of what Dask says
 _LONGEST = 200
 #: expression whose value is the digest of the brakechain where it is evaluated; to ask needs no brakechain there
@@ -46,7 +47,7 @@ class DaskCluster:
                               "install it: python -m pip install distributed") from None
         _check_certificates(address)
         try:
-            self._client = Client(address, timeout=10, set_as_default=False)
+            self._client = Client(address, timeout=_ANSWER, set_as_default=False)
         except (OSError, ValueError, TimeoutError) as error:
             raise ConfigError("--scheduler", "a Dask scheduler that answers", f"{address} ({error})",
                               "start one with 'dask scheduler' and 'dask worker ADDRESS'") from None

@@ -39,8 +39,9 @@ def scheduler(code=ROOT):
 
 
 def worker(address, count, folder, code=ROOT):
-    return process("worker", address, "--nthreads", "1", "--nworkers", str(count), "--no-dashboard",
-                   "--local-directory", str(folder), code=code)
+    alone = ("--no-nanny",) if count == 1 else ()       # a process less, where there is no other to look after
+    return process("worker", address, "--nthreads", "1", "--nworkers", count, "--no-dashboard", *alone,
+                   "--local-directory", folder, code=code)
 
 
 @contextmanager

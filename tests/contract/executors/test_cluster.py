@@ -16,12 +16,12 @@ COUNT = 8
 
 
 def slow(seed):
-    """A task of half a second with bits of its own."""
-    time.sleep(0.5)
+    """A task of a third of a second with bits of its own."""
+    time.sleep(0.3)
     return work(seed)
 
 
-def lost(victim, executor, after=1.0):
+def lost(victim, executor, after=0.5):
     """What ``executor`` returns of slow tasks while ``victim`` is killed."""
     timer = threading.Timer(after, kill, (victim,))
     timer.start()
@@ -42,7 +42,8 @@ def test_tasks_of_a_lost_worker_go_to_the_other(tmp_path):
 
 
 def test_the_only_worker_lost_is_told_with_the_time_waited(tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "_PATIENCE", 3.0)
+    monkeypatch.setattr(cluster, "_LOOK", 0.2)
+    monkeypatch.setattr(cluster, "_PATIENCE", 1.0)
     with scheduler() as started:
         address = address_of(started)
         with (worker(address, 1, tmp_path) as victim, running(choose(1, address)) as executor,

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import BrakechainError, ConfigError, ConvergenceError
-from pipeline.contract.executors import DaskCluster, InProcess, LocalProcesses, choose, run_task
+from pipeline.contract.executors import DaskCluster, InProcess, LocalProcesses, choose, cluster, run_task
 
 
 def work(seed):
@@ -84,8 +84,9 @@ def test_a_worker_that_dies_is_reported():
         pool.map(end, [1], lambda: None)
 
 
-def test_a_scheduler_that_does_not_answer():
+def test_a_scheduler_that_does_not_answer(monkeypatch):
     pytest.importorskip("distributed")
+    monkeypatch.setattr(cluster, "_ANSWER", 1.0)
     with pytest.raises(ConfigError, match="expected a Dask scheduler that answers"):
         choose(2, "tcp://127.0.0.1:9")
 
@@ -122,16 +123,25 @@ def _gone(pid, patience=10.0):
 
 
 _INTERRUPTED = """
-import os, signal, sys, threading, time
+import os, signal, threading, time
+from pathlib import Path
 from pipeline.contract.executors import LocalProcesses
+
+def begin(name):
+    Path(name).touch()
+    time.sleep(900)
+
+def interrupt():
+    while not (Path("a").exists() and Path("b").exists()):
+        time.sleep(0.05)
+    os.killpg(0, signal.SIGINT)
 
 if __name__ == "__main__":
     signal.signal(signal.SIGINT, signal.default_int_handler)    # what shells start in the background ignores it
     work = LocalProcesses(2)
-    work.map(abs, [1, 2], lambda: None)
-    threading.Timer(6.0, lambda: os.killpg(0, signal.SIGINT)).start()
+    threading.Thread(target=interrupt, daemon=True).start()
     try:
-        work.map(time.sleep, [900, 900], lambda: None)
+        work.map(begin, ["a", "b"], lambda: None)
     except KeyboardInterrupt:
         work.close()
         print("stopped")

@@ -17,9 +17,9 @@ def sleep(path, folder):
 
 def test_a_reader_that_waits_is_stopped_by_the_clock(tmp_path, monkeypatch):
     (tmp_path / "a").write_bytes(b"a")
-    monkeypatch.setattr(process, "_CLOCK", 5)
+    monkeypatch.setattr(process, "_CLOCK", 2)
     begin = time.monotonic()
-    with pytest.raises(ConfigError, match="expected a file that is read within 5 s of the clock, found a reader that is"
+    with pytest.raises(ConfigError, match="expected a file that is read within 2 s of the clock, found a reader that is"
                                           " not done; the file is damaged, or too large"):
         process.answered(f"{__name__}:sleep", tmp_path / "a", lambda folder: pytest.fail("read"))
     assert time.monotonic() - begin < 60
