@@ -46,7 +46,7 @@ def jenkins(stiffness, limit):
     """Jenkins elements in parallel of ``stiffness`` (s,) N/m, each held up to ``limit`` (s,) N; z: their forces."""
     def law(x, v, z):
         slides = ((z >= limit) & (v > 0)) | ((z <= -limit) & (v < 0))
-        return float(np.clip(z, -limit, limit).sum()), np.where(slides, 0.0, stiffness * v)
+        return float(np.minimum(np.maximum(z, -limit), limit).sum()), np.where(slides, 0.0, stiffness * v)
 
     return law
 

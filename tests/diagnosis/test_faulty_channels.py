@@ -1,6 +1,7 @@
 """A channel of reversed sign, or in another unit than stated, is named as such, be it among the whole catalogue."""
 
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -12,12 +13,18 @@ from pipeline.diagnosis.settings import Settings
 from tests.diagnosis.small_rig import NOISE, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.3}},
-         "held_out": ["level_4"]}
+         "held_out": ["level_3"]}
+
+
+@cache
+def sound():
+    """Recording of the small rig whose channel shows what it should."""
+    return recording(levels=(2.0, 9.0, 7.0))
 
 
 def problem(factor, weighed=()):
     """DiagnosisProblem of the small rig whose channel shows ``factor`` times what it should, its noise too."""
-    given, section = recording(levels=(2.0, 5.0, 9.0, 7.0)), laid_out()
+    given, section = sound(), laid_out()
     runs = {name: replace(run, channels={**run.channels, "x": replace(
         run.channels["x"], samples=factor * run.channels["x"].samples)}) for name, run in given.runs.items()}
     asked = {**ASKED, "noise": {"std": {"x": f"{abs(factor) * NOISE} m"}}, "effects": list(weighed)}

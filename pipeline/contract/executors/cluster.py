@@ -10,8 +10,8 @@ from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.executors.local import run_task
 from pipeline.contract.fingerprint import project_digest
 
-#: how long a scheduler may take to answer, how often the cluster is looked at while nothing finishes, and how long tasks
-#: wait for a first worker [s]
+#: how long a scheduler may take to answer, how often the cluster is looked at while nothing finishes, and how long
+#: tasks wait for a first worker [s]
 _ANSWER, _LOOK, _PATIENCE = 10.0, 2.0, 60.0
 #: characters shown of what Dask says
 _LONGEST = 200

@@ -35,6 +35,7 @@ def mac(one, other):
 
 
 LINE = np.arange(1000.0, 2000.1, 0.5)
+WITHIN = LINE[(LINE >= 1150) & (LINE <= 1750)]
 
 
 @pytest.mark.exact
@@ -59,20 +60,20 @@ def test_doublets_in_noise_of_a_percent(split):
     assert min(mac(*pair) for pair in zip(found.residue, shape[order], strict=True)) > 0.98
 
 
-def covered(draws):
+def covered(draws, line=LINE):
     """Shares of the frequencies and of the damping ratios within two standard deviations of the truth (1.96)."""
     frequency, damping, shape = disc()
-    order, clean = np.argsort(frequency), responses(LINE, frequency, damping, shape)
+    order, clean = np.argsort(frequency), responses(line, frequency, damping, shape)
     inside = []
     for draw in range(draws):
-        found = identify(LINE, noisy(clean, 0.01, np.random.default_rng(draw)))
+        found = identify(line, noisy(clean, 0.01, np.random.default_rng(draw)))
         inside.append([abs(found.frequency - frequency[order]) < 1.96 * found.frequency_std,
                        abs(found.damping_ratio - damping[order]) < 1.96 * found.damping_ratio_std])
     return np.mean(inside, axis=(0, 2))
 
 
 def test_stated_errors_hold():
-    assert np.all(covered(12) > 0.85)       # 60 values each: .95 +- .03
+    assert np.all(covered(12, WITHIN) > 0.85)       # 60 values each: .95 +- .03
 
 
 @pytest.mark.slow
@@ -115,7 +116,7 @@ def test_what_cannot_be_analysed_is_refused(line, response, told):
 
 def test_errors_of_shapes_hold_for_close_modes():
     """500 and 501 Hz at .2 % damping: the scatter of residues over draws is what is stated."""
-    line, frequency, damping = np.arange(400.0, 600.1, 0.5), np.array([500.0, 501.0]), np.full(2, 2e-3)
+    line, frequency, damping = np.arange(450.0, 550.1, 0.5), np.array([500.0, 501.0]), np.full(2, 2e-3)
     shape = np.array([np.cos(2 * ANGLE), np.sin(2 * ANGLE)])
     clean = responses(line, frequency, damping, shape)
     found = [identify(line, noisy(clean, 0.01, np.random.default_rng(k))) for k in range(30)]

@@ -54,7 +54,7 @@ def test_planted_squeal_is_found_with_frequency_level_and_length():
     worst = np.zeros(4)
     for k in range(100):
         frequency, length = random.uniform(2100, 15900), random.uniform(0.15, 2)
-        start, t = random.uniform(0.3, 4.5 - length), time(5)
+        start, t = random.uniform(0.3, 2.6 - length), time(3)
         level = 75 - 20 * np.log10(a_weighting(frequency))
         tone = np.sqrt(2) * pascal(level) * np.sin(2 * np.pi * frequency * t) * ((t >= start) & (t < start + length))
         (found,) = [e for e in events(noise[(k % 60) * RATE:][:len(t)] + tone) if e.kind == SQUEAL]
@@ -75,13 +75,13 @@ def test_pink_noise_holds_no_event():
 @pytest.mark.parametrize("decibel", [80, 92])
 def test_grinding_is_noise_without_a_tone(decibel):
     """Band-limited noise whose level goes with the turns of a disc."""
-    random, t = np.random.default_rng(5), time(60)
+    random, t = np.random.default_rng(5), time(20)
     band = scipy.signal.butter(2, [800, 9000], "band", fs=RATE)
     noise = of_level(scipy.signal.lfilter(*band, random.standard_normal(len(t))) * (1 + 0.5 * np.sin(14 * np.pi * t)),
                      decibel)
     assert not events(noise)
     loud = broadband(frames(noise, RATE, DETECTOR, np.float32), DETECTOR)
-    assert loud and {e.kind for e in loud} == {BROADBAND} and sum(e.duration for e in loud) > 50
+    assert loud and {e.kind for e in loud} == {BROADBAND} and sum(e.duration for e in loud) > 17
 
 
 def phase(frequency):

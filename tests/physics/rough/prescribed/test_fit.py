@@ -76,4 +76,4 @@ def test_generated_surfaces_have_the_figures_of_real_scans(name):
     scan = read_scan(SCANS / name)
     heights, _ = level(remove_outliers(scan.heights, 8.0)[0], scan.spacing)
     fit = fitted(heights, scan.spacing, largest_patch(heights.shape, scan.spacing), 8 * max(scan.spacing))
-    close(mean_figures(generated(fit, 3), fit.length, fit.bands.wavelength), fit.figures)
+    close(mean_figures(generated(fit, 2), fit.length, fit.bands.wavelength), fit.figures)
