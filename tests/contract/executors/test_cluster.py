@@ -21,7 +21,7 @@ def slow(seed):
     return work(seed)
 
 
-def lost(victim, executor, after=0.5):
+def lost(victim, executor, after=1.0):
     """What ``executor`` returns of slow tasks while ``victim`` is killed."""
     timer = threading.Timer(after, kill, (victim,))
     timer.start()
