@@ -16,8 +16,9 @@ RIVALS = {"compliant_arm": "arm", "micro_slip": "contact"}
 
 @pytest.mark.measured
 def test_the_map_beside_the_tribometer_is_updated_and_predicts_strokes_that_it_did_not_see(tmp_path):
+    """Two patches instead of four; all of them are those of the slow test of every case."""
     brakechain("run", ROOT / "configs" / "tribometer_map.yaml", "--run", tmp_path / "run",
-               "--set", "report.dots_per_inch=50")
+               "--set", "report.dots_per_inch=50", "--set", "surface.pairs=2")
     told = store.read(FrictionUpdate, tmp_path / "run" / "friction_update.h5")
     assert str(told.verdict) == "values" and "level" in told.term[told.needed > 0]
     assert len(told.friction) > 30 and 0.4 < told.friction.min() < told.friction.max() < 0.5

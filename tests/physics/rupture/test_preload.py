@@ -1,5 +1,7 @@
 """The static state before a rupture: a crack with a formula, complementarity, equilibrium."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -9,17 +11,24 @@ from pipeline.physics.rupture.preload import solve_preload
 from tests.physics.small_ruptures import SOFT, STIFF, plates
 
 
+@cache
+def shear_where_stuck(spacing, length):
+    """Shear / Pa in the middle of plates that stick everywhere: that of no crack."""
+    state = solve_preload(*plates(spacing, length=length, height=0.5 * length, solids=(SOFT, SOFT)), 10.0, 1e6, 0.5,
+                          "superlu")
+    return state.shear[state.shear.size // 2]
+
+
 def crack(spacing, length, half=6e-4):
     """(slip at the centre, slope of slip^2 over x^2), over those of an infinite solid, and tip / m."""
     lower, upper = plates(spacing, length=length, height=0.5 * length, solids=(SOFT, SOFT))
     x = spacing * np.arange(lower.columns) - 0.5 * length
     free = np.abs(x) < half * (1 - 1e-6)
-    stuck = solve_preload(lower, upper, 10.0, 1e6, 0.5, "superlu")
     cracked = solve_preload(lower, upper, np.where(free, 0.0, 10.0), 1e6, 0.5, "superlu")
     assert not cracked.shear[free].round(3).any() and not cracked.slip[~free].any()
     middle = np.abs(x) < 0.69 * half
     slope, height = np.polyfit(x[middle] ** 2, cracked.slip[middle] ** 2, 1)
-    expected = 2 * (1 - SOFT.poisson_ratio) * stuck.shear[x.size // 2] / SOFT.shear_modulus
+    expected = 2 * (1 - SOFT.poisson_ratio) * shear_where_stuck(1e-4, length) / SOFT.shear_modulus
     return cracked.slip[x.size // 2] / (expected * half), np.sqrt(-slope) / expected, np.sqrt(-height / slope)
 
 
