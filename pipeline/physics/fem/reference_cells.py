@@ -56,10 +56,10 @@ def shape_functions(kind, point):
         return _polynomials(kind, np.asarray(point, float))
     finite, order = _finite_element(kind)
     columns = np.ascontiguousarray(np.asarray(point, float).T)
-    values = [finite.lbasis(columns, i) for i in order]
-    shape = [np.broadcast_to(value, columns.shape[1]) for value, _ in values]
-    gradient = [np.broadcast_to(np.array(slope), columns.shape) for _, slope in values]
-    return np.array(shape).T, np.array(gradient).transpose(2, 0, 1)
+    shape, gradient = np.empty((len(order), columns.shape[1])), np.empty((len(order), *columns.shape))
+    for k, i in enumerate(order):
+        shape[k], gradient[k] = finite.lbasis(columns, i)
+    return shape.T, gradient.transpose(2, 0, 1)
 
 
 @cache
