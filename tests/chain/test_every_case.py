@@ -26,7 +26,7 @@ SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "pin_on_disc", "pin
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]
 PRACTICE = ROOT / "data" / "runs" / "practice"
-#: a fifth of the draws go the same ways in a fifth of the time; the cycle of the wobbling disc is there after half of it
+#: a fifth of the draws go the same ways in a fifth of the time; half of the wobble ends in the same cycle
 FEWER = {"disc_brake": ("--set", "probability.draws=100"), "wobbling_disc": ("--set", "transient.duration=3 s")}
 CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc", "brake_matrices")
 #: case -> facts that may be outside. The motion of the beams is chaotic: the median force varies between processors by

@@ -12,10 +12,10 @@ from tests.physics.small_ruptures import SOFT, STIFF, interface, plates
 
 
 def fronts(spacing, memory_time):
-    lower, upper = plates(spacing, length=9e-3, height=2.5e-3)
+    lower, upper = plates(spacing, length=7e-3, height=2.3e-3)
     law, x = interface(lower, upper, memory_time=memory_time)
     record = run(lower, upper, law, 2.02e-6).record
-    place = x, 4.5e-3, 6.26e-5
+    place = x, 3.5e-3, 6.26e-5
     found = arrivals(record, *place)
     return [front(record, found, *place, 2.5e-4, side) for side in (LEFT, RIGHT)]
 

@@ -16,7 +16,7 @@ def changed(**parts):
 
 
 def frequencies(body, count=5):
-    squared = eigh(body.stiffness.toarray(), body.mass.toarray(), eigvals_only=True)[:count]
+    squared = eigh(body.stiffness.toarray(), body.mass.toarray(), eigvals_only=True, subset_by_index=(0, count - 1))
     return np.sqrt(np.maximum(squared, 0)) / (2 * np.pi)
 
 
@@ -34,7 +34,7 @@ def test_plane_elements_agree_with_timoshenko_beams():
 @pytest.mark.parametrize("element", ["plane", "timoshenko"])
 def test_slider_moves_freely_along_y_with_all_its_mass(element):
     slider, _ = build(SETTINGS, element)
-    squared, shape = eigh(slider.stiffness.toarray(), slider.mass.toarray())
+    squared, shape = eigh(slider.stiffness.toarray(), slider.mass.toarray(), subset_by_index=(0, 1))
     assert abs(squared[0]) < 1e-6 * squared[1]
     p = SETTINGS.slider
     weight = SETTINGS.material.density * p.length * p.thickness * p.width + SETTINGS.contact.mass

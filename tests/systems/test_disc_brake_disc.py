@@ -81,7 +81,7 @@ def test_holes_soften_and_lighten_the_ring_alike():
     found = {}
     for name, given in (("solid", {}), ("drilled", DRILLED)):
         solid = made(**given)
-        found[name] = free_modes(*solid.matrices(), available()[0], 2500.0, name)[0]
+        found[name] = free_modes(*solid.matrices(), available()[0], 1200.0, name)[0]
     assert 0.95 * found["solid"][0] < found["drilled"][0] < found["solid"][0]
     assert found["drilled"][0] == pytest.approx(found["drilled"][1], rel=1e-3)
 
@@ -113,7 +113,7 @@ def test_a_ventilated_ring_bends_about_as_a_solid_one_of_its_height():
     found = {}
     for name, given in (("solid", {"ring_thickness": "22 mm"}), ("vented", VENTED)):
         solid = made(**{**given, "web_thickness": "5 mm"})
-        found[name] = free_modes(*solid.matrices(), available()[0], 2500.0, name)[0]
+        found[name] = free_modes(*solid.matrices(), available()[0], 1200.0, name)[0]
     assert 0.7 * found["solid"][0] < found["vented"][0] < 1.1 * found["solid"][0]
     assert found["vented"][0] == pytest.approx(found["vented"][1], rel=1e-3)        # a doublet: 24 vanes, two diameters
 

@@ -80,9 +80,9 @@ def surface(nodes=48):
         power_spectrum=np.stack([1e-20 * (wavenumber / 1e4) ** -3.0, 4e-21 * (wavenumber / 1e4) ** -2.5]))
 
 
-def micro_friction(nodes=48):
+def micro_friction(nodes=48, distances=5):
     """Friction that rises with wear."""
-    distance = np.linspace(5e-5, 1e-2, 5)
+    distance = np.linspace(5e-5, 1e-2, distances)
     worn = distance / distance[-1]
     area = (PRESSURE[:, None, None] / 1e6 * 0.03 + 0.02 * worn) * np.ones((1, 3, 1))
     friction = 0.40 + 0.02 * np.arange(3)[:, None, None] + 0.002 * np.arange(3)[:, None] + 0.2 * worn
