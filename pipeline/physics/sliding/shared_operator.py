@@ -70,8 +70,9 @@ class SharedOperator:
         """The symmetric part of T(``root``), an Upper in single precision, at a SlidingPoint: without what friction
         transfers from normal to tangential motion, and without what turns with the speed."""
         contact = (point.by_place + root * point.by_speed).diagonal()
-        whole = scipy.sparse.triu(self.rows.T @ (scipy.sparse.diags(contact) @ self.rows), format="csr")
-        whole = whole.astype(np.complex64)
+        each = np.arange(len(contact) + 1)      # open ones too, so that entries are at the same places in any state
+        pressed = scipy.sparse.csr_matrix((contact, each[:-1], each)) @ self.rows
+        whole = scipy.sparse.triu(self.rows.T @ pressed, format="csr").astype(np.complex64)
         whole.sort_indices()        # sums of sorted rows are quick
         for half, order, power in sorted(self.terms, key=lambda term: term[0].size):
             if not power:

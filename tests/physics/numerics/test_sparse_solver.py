@@ -61,7 +61,7 @@ def test_single_precision_solves_unsymmetric_matrices_whatever_their_diagonal(so
 
 @pytest.mark.parametrize("single", [False, True])
 def test_the_upper_triangle_alone_says_all_of_a_symmetric_matrix(solver, single):
-    """Complex, with a diagonal entry that is not stored; then of another matrix with the same entries."""
+    """Complex, with a diagonal entry that is not stored; then of others with entries at the same places, and not."""
     body, row = laplacian(4) + 0.1j * sp.identity(64), np.ones((1, 64))
     matrix, rhs = sp.block_array([[None, row], [row.T, body]], format="csr"), np.arange(1.0, 66.0) + 1j
     upper, near = Upper(sp.triu(matrix, format="csr")), {"rtol": 1e-3 if single else 1e-10}
@@ -74,6 +74,9 @@ def test_the_upper_triangle_alone_says_all_of_a_symmetric_matrix(solver, single)
         for factor in (1, 2, 3j):
             found = successive.factor(Upper(factor * upper.part)).solve(rhs)
             np.testing.assert_allclose(found, expected / factor, **near)
+        other = laplacian(4) + 1j * sp.identity(64) + sp.diags([1.0, 1.0], [40, -40], shape=(64, 64))
+        found = successive.factor(Upper(sp.triu(other, format="csr"))).solve(rhs[1:])   # with entries at other places
+        np.testing.assert_allclose(found, np.linalg.solve(other.toarray(), rhs[1:]), **near)
 
 
 def test_saddle_point_with_empty_diagonal(solver):

@@ -71,6 +71,14 @@ def test_the_symmetric_part_and_what_friction_draws_beside_it_are_all_that_does_
     np.testing.assert_allclose(part @ vector + drawn, still @ vector, rtol=1e-6)
 
 
+def test_the_symmetric_part_has_entries_at_the_same_places_where_contacts_are_open(model):
+    point, operator = SlidingPoint.of(model, FRICTION), SharedOperator.of(model)
+    closed = operator.symmetric(point, ROOT).part
+    opened = operator.symmetric(replace(point, by_place=0 * point.by_place, by_speed=0 * point.by_speed), ROOT).part
+    np.testing.assert_array_equal(closed.indices, opened.indices)
+    np.testing.assert_array_equal(closed.indptr, opened.indptr)
+
+
 def test_a_subspace_of_all_motions_has_the_matrices_of_the_model(model, point):
     """Of vectors that are there already, it takes the other parts alone."""
     random = np.random.default_rng(3)
