@@ -73,45 +73,26 @@ def thinned(values, decimation, trim):
     return _forth_and_back(_before(decimation), values)[:, ::decimation] if decimation > 1 else values
 
 
-class Filter(NamedTuple):
-    """Second-order ``sections``, their states ``settled`` (sections, 1, 2) behind a constant 1, and the samples of each
-    ``end`` of a run that are mirrored about its last one."""
-
-    sections: np.ndarray
-    settled: np.ndarray
-    end: int
-
-    @classmethod
-    def of(cls, sections):
-        taps = 2 * len(sections) + 1 - min((sections[:, 2] == 0).sum(), (sections[:, 5] == 0).sum())
-        return cls(sections, scipy.signal.sosfilt_zi(sections)[:, None], int(3 * taps))
-
-
-def _forth_and_back(low_pass, values):
-    """(n, samples) behind a Filter, run forth and back: ``scipy.signal.sosfiltfilt``, which looks for the settled
-    states at every call. ConfigError for runs shorter than their ends.
+def _forth_and_back(sections, values):
+    """(n, samples) behind second-order ``sections``, run forth and back. ConfigError for runs shorter than their ends.
     """
-    sections, settled, end = low_pass
-    if values.shape[1] <= end:
+    try:
+        return scipy.signal.sosfiltfilt(sections, values, axis=1)
+    except ValueError as error:
         raise ConfigError("equation residual: run", "as many samples as the filters need at its ends",
-                          f"{values.shape[1]} samples (the filters need more than {end})",
-                          "take a longer stretch, decimate less, or state no corner")
-    values = np.concatenate((2 * values[:, :1] - values[:, end:0:-1], values,
-                             2 * values[:, -1:] - values[:, -2:-end - 2:-1]), axis=1)
-    for _ in range(2):
-        values = scipy.signal.sosfilt(sections, values, axis=1, zi=settled * values[:, :1])[0][:, ::-1]
-    return values[:, end:-end]
+                          f"{values.shape[1]} samples ({error})",
+                          "take a longer stretch, decimate less, or state no corner") from None
 
 
 @lru_cache
 def _low_pass(order, corner):
-    return Filter.of(scipy.signal.butter(order, corner, output="sos"))
+    return scipy.signal.butter(order, corner, output="sos")
 
 
 @lru_cache
 def _before(decimation):
     """The filter of scipy.signal.decimate: Chebyshev's first kind, order 8, 0.05 dB up to 0.8 of the new range."""
-    return Filter.of(scipy.signal.cheby1(8, 0.05, 0.8 / decimation, output="sos"))
+    return scipy.signal.cheby1(8, 0.05, 0.8 / decimation, output="sos")
 
 
 def coordinates(bench, run, measured):
