@@ -10,8 +10,6 @@ unknown.
 
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import islice
-from operator import call
 
 import numpy as np
 import scipy
@@ -245,9 +243,7 @@ def _solved(states, tasks, friction, slide, law, settings, context):
     long = [] if slide is None else [partial(slide, points)]
     sweep = [partial(_roots_over_friction, settings, (s, c)) for s in states for c in chunks]
     operating = [partial(_operate, settings, law, task) for task in tasks]
-    results = context.map(call, long + sweep + operating, "friction sweep, operating points")
-    rest = iter(results)
-    about, swept, outcomes = (list(islice(rest, len(part))) for part in (long, sweep, operating))
+    about, swept, outcomes = context.side_by_side(long, sweep, operating, label="friction sweep, operating points")
     roots = [np.vstack(swept[k:k + len(chunks)]) for k in range(0, len(swept), len(chunks))]
     return (*about, None)[0], [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots], outcomes
 

@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 from functools import partial
-from itertools import islice
-from operator import call
 
 import numpy as np
 
@@ -51,13 +49,12 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
              for offset in offsets(surface, settings)]
     shown = len(settings.pressures) // 2 * len(pairs) * settings.realisations
     middle = settings.pressures[len(settings.pressures) // 2]
-    finer = [partial(_area_on_grid, factor, surface, settings, middle)
-             for factor in settings.refinement[::-1]]
+    finer = [partial(_area_on_grid, factor, surface, settings, middle) for factor in settings.refinement[::-1]]
     sliding = [partial(_slide, (*task, k == shown), speeds, recorded) for k, task in enumerate(tasks)]
     rest = [partial(from_rest, pairs[0], pressure, speeds[len(speeds) // 2], settings.presliding)
             for pressure in (settings.pressures if settings.presliding else ())]
-    found = iter(context.map(call, finer + sliding + rest, "sliding and rest of the rough pair, finer grids"))
-    areas, records, begins = (list(islice(found, len(part))) for part in (finer, sliding, rest))
+    areas, records, begins = context.side_by_side(
+        finer, sliding, rest, label="sliding and rest of the rough pair, finer grids")
     areas = areas[::-1]     # the longest came first
     return MicroFriction(
         settings=stored(settings), pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,

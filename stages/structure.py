@@ -1,7 +1,6 @@
 """Stage structure: finite-element models of the bodies of the brake; real modes, joints, contacts and preload."""
 
 from functools import partial
-from operator import call
 from typing import Literal
 
 import numpy as np
@@ -150,9 +149,9 @@ def _solved(brake, settings, context):
     tasks = [(brake.bodies[0], None, settings.free_frequency_max)]
     tasks += [(body, body.supported, settings.frequency_max) for body in brake.bodies]
     bodies = [partial(_modes, context.solver, task) for task in tasks]
-    results = context.map(call, linings + bodies, "real modes, compliance of the contacts")
-    condensed = dict(zip(dict.fromkeys(stiffer), results, strict=False))
-    return [condensed[times] for times in stiffer], results[len(linings):]
+    compliant, modes = context.side_by_side(linings, bodies, label="real modes, compliance of the contacts")
+    condensed = dict(zip(dict.fromkeys(stiffer), compliant, strict=True))
+    return [condensed[times] for times in stiffer], modes
 
 
 def _stiffer(settings):

@@ -3,6 +3,8 @@
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import islice
+from operator import call
 
 
 class Progress:
@@ -40,6 +42,12 @@ class Context:
         """``[function(item) for item in items]``, in order; ``function`` must be picklable."""
         fan_out, items = partial(self.fan_out, label=label), list(items)
         return fan_out(function, items) if self.kept is None else self.kept.completed(fan_out, function, items)
+
+    def side_by_side(self, *groups, label=""):
+        """What the functions of each of some lists ``groups`` return, a list for each; they take nothing, are picklable
+        and run in one round, in which those of one group fill the gaps that those of another leave."""
+        found = iter(self.map(call, [task for group in groups for task in group], label))
+        return [list(islice(found, len(group))) for group in groups]
 
     def fan_out(self, function, items, label=""):
         """What ``map`` computes; ``items`` is a list."""

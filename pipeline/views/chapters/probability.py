@@ -42,11 +42,10 @@ def statement(probability):
              f" {quantity(probability.pressure[worst], 'Pa', 3)} and"
              f" {quantity(probability.speed[worst], 'rad/s')}, the worst operating point;"
              f" {_with_interval(probability.overall, probability.overall_interval)} at any.")
-    sure = probability.sensitivity > 2 * probability.sensitivity_error
     order = np.argsort(-probability.sensitivity)[:2]
     matters = [f"{in_words(probability.source[k])} ({percent(probability.sensitivity[k], 2)} of the variance of the"
                f" growth rate, more of it {_sign(probability.trend[k])})"
-               for k in order if sure[k]]
+               for k in order if probability.sensitivity[k] > 2 * probability.sensitivity_error[k]]
     if not matters:
         return f"{first} No source stands out from the error that so many draws leave."
     return f"{first} What matters most: {', then '.join(matters)}."
