@@ -26,6 +26,7 @@ from pipeline.diagnosis.signals.start_states import with_starts
 from pipeline.diagnosis.signals.usable_runs import doubts
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.step_error import longest
 from pipeline.inference.problem import Problem
 
 
@@ -51,6 +52,9 @@ def forced_problem(bench, recorded, settings, remarks=()):
     effects = with_added_starts(bench, effects, recorded)
     problem = replace(problem, nominal=with_starts(problem.nominal, bench, recorded, remembers(bench, effects)))
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
+    doubled = longest(problem, tuple(noises[run.name] for run in problem.training), solver.rules.refit)
+    problem = replace(problem, nominal=replace(problem.nominal, halvings=doubled))
+    effects = tuple(replace(effect, halvings=doubled) for effect in effects)
     return DiagnosisProblem(
         problem, noises | {f.run.name: noises[training[0].run.name] for f in planned},
         (*effects, *([solver_candidate()] if settings.solver else [])), units, solver,

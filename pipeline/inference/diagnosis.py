@@ -9,7 +9,7 @@ from pipeline.inference.decision import several_laws
 from pipeline.inference.decision.decision_rules import Decision
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration
-from pipeline.inference.fitting.refitting import Refits
+from pipeline.inference.fitting.refitted import Refits
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.time_budget import spent, within
 
@@ -39,7 +39,8 @@ class Diagnosis:
     a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
     the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
     ``laws``: how many were fitted as one set; ``objected`` {law: why it is of another form}. ``cut_short``: whether the
-    time was spent before all was tried, so that nothing may be named.
+    time was spent before all was tried, so that nothing may be named. ``model_error``: of a law that holds in part, in
+    noise floors; 1 of noise alone.
     """
 
     calibration: Calibration
@@ -52,6 +53,7 @@ class Diagnosis:
     laws: int = 1
     objected: dict = field(default_factory=dict)
     cut_short: bool = False
+    model_error: float = 1.0
 
     def remarked(self, *sentences):
         """The same with further ``sentences`` among the reasons of its decision."""
@@ -134,6 +136,7 @@ def decided(refits, settings, base, laws=1):
     however often the null begins again."""
     late = spent()
     with within(np.inf):        # what has been fitted is weighed in any case
+        refits = refits.as_stated()
         weighing, decision = _weighed(refits, settings, base and base.null, laws)
         if not late and _rests_on_unfinished(refits, decision):
             refits = replace(refits, calibration=refits.calibration.gone_on(settings.rules.refit.restarts))

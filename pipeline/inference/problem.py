@@ -60,8 +60,8 @@ class Hypothesis:
     ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``elaborate``: weighed only where
     simpler ones leave something. ``extends``: names of hypotheses that it has as limits, beside which it counts by what
     it adds to them; no two of such a family act together.
-    ``halvings``: how many times the time step of the forward model is halved, where its error would matter (see
-    ``fitting.step_error``).
+    ``halvings``: how many times the time step of the forward model is halved where its error would matter, or, below
+    0, doubled where it would not (see ``fitting.step_error``).
     """
 
     name: str

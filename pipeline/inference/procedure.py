@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, instead, sentence_of
-from pipeline.inference import several
+from pipeline.inference import model_error, several
 from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
@@ -40,18 +40,17 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     named law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the
     nominal model has no fit. ``tell(Decision)`` hears what is decided first, to be sharpened. Where the time is spent
     (``time_budget``) before all was tried beside one law nothing is named; what else was not tried is told. Long
-    records are diagnosed on their beginnings first (``long_records``).
+    records are diagnosed on their beginnings first (``long_records``). Where no law reaches the noise, one that holds
+    in part may be named (``model_error``).
     """
     settings, problem = settings or Settings(), problem.for_all(catalogue)
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out, tell)
-    short = beginnings(problem, budget)
-    told = on_the_whole(asked, replace(asked, problem=short[0], budget=short[1]), motions) if short else None
-    return told or asked.diagnosed(motions)
+    return model_error.beside_it(asked, asked.told(motions))
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What ``diagnose`` was asked; elaborate candidates come last in the ``catalogue``."""
+    """What ``diagnose`` was asked; elaborate candidates come last in the ``catalogue``. ``alone``: of one law only."""
 
     problem: Problem
     budget: dict
@@ -59,12 +58,19 @@ class Asked:
     settings: Settings
     fan_out: FanOut
     tell: Callable | None = None
+    alone: bool = False
+
+    def told(self, motions=None):
+        """``diagnosed``, of long records on their beginnings first."""
+        short = beginnings(self.problem, self.budget)
+        told = on_the_whole(self, replace(self, problem=short[0], budget=short[1]), motions) if short else None
+        return told or self.diagnosed(motions)
 
     def diagnosed(self, motions):
         """Diagnosis by one law, else several, along Motions where there are."""
         _, single = self.steps()
         try:
-            open_ = single.decision.verdict in ("unknown", "missing") and not single.cut_short
+            open_ = single.decision.verdict in ("unknown", "missing") and not (single.cut_short or self.alone)
             if open_ and len(self.problem.runs) > 1:
                 single = (self.along(single, motions) if motions else
                           self.by_the_screen(self.pairs(single, self.catalogue)))

@@ -129,7 +129,7 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=8)
+@product(version=9)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -143,6 +143,8 @@ class Diagnosis:
     leading: Array = count("leading", "row of the hypothesis that explains most beyond chance where nothing is named, then of those at its place that take nearly as much; none where no candidate helps")
     leading_takes: Array = quantity("1", "leading", "share of the excess error that it takes, on held-out runs where they can tell, else on all")
     leading_stays: Array = quantity("1", "leading", "share that stays beyond the doubt about noise")
+    model_error: Array = quantity("1", "", "error of the model beside which what is named is told from the others, in noise floors; 1 where noise alone is")
+    in_part: Array = count("", "1 where what is named leaves more than noise: it holds in part")
     noise_level: Array = quantity("1", "level", "noise as a multiple of what is known of it")
     noise_verdict: Array = text("level", "verdict at that level, all fitted values as they are")
     noise_named: Array = text("level", "hypotheses named there, joined by ' or '; empty for none")

@@ -113,6 +113,7 @@ def as_json(product):
     document = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
+        "grade": _grade(product), "model_error": float(product.model_error),
         "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
                     zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
@@ -136,6 +137,13 @@ def as_json(product):
     if product.squeal:
         document["saturated_squeal"] = {name: _squeal(check) for name, check in product.squeal.items()}
     return document
+
+
+def _grade(product):
+    """What to make of the verdict: effects that hold "to the noise", "in part", or only "leading"; else empty."""
+    if len(product.named):
+        return "in part" if product.in_part else "to the noise"
+    return "leading" if len(product.leading) else ""
 
 
 def _parameter(product, k):

@@ -19,6 +19,8 @@ from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Lat
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
+#: noise floors beyond which what is named holds in part
+_IN_PART = 1.2
 #: factor by which the error of the fitted runs may grow with the recalibration before it is told
 _GROWN = 1.1
 
@@ -49,13 +51,14 @@ def product(problem, diagnosis, contacts=None):
     further = attempt("the next experiment", next_experiment, problem, diagnosis, otherwise=NOTHING)
     result = Diagnosis(
         verdict=diagnosis.decision.verdict, other_machine="",
+        model_error=diagnosis.model_error, in_part=int(bool(diagnosis.decision.named) and left.floors > _IN_PART),
         reason=[*diagnosis.decision.reasons, *_grown(fits[0]), *problem.remarks, *short(runs, problem.budget),
                 *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
         **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
         **_levels(levels), left_floors=left.floors, left_sentence=left.sentence,
         left_candidate=left.candidate, **_starts(runs, completed, std),
-        completed_step=problem.step / 2**halvings if (halvings := completed.hypothesis.halvings) else 0.0,
+        completed_step=problem.step / 2**halvings if (halvings := completed.hypothesis.halvings) > 0 else 0.0,
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,
         location={name: located(*axis) for name, axis in axes.items()},

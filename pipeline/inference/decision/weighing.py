@@ -70,7 +70,7 @@ class Weighed:
     @property
     def refined(self):
         """The candidate, its time step halved as often as its Fit asked for."""
-        return replace(self.candidate, halvings=self.fit.hypothesis.halvings)
+        return replace(self.candidate, halvings=self.fit.hypothesis.halvings or self.candidate.halvings)
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,20 @@
-"""The fit of a candidate from its begin to its end, or what went wrong; the best of several."""
+"""The fit of a candidate from its begin to its end, or what went wrong; the best of several; all of a catalogue."""
 
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 from pipeline.contract.errors import instead, sentence_of
-from pipeline.inference.fitting.calibration import paired_anew
+from pipeline.inference.fitting.calibration import Calibration, paired_anew
 from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import continued, iterated
+from pipeline.inference.fitting.step_error import as_stated
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
 #: iterations after which the worse half of the candidates that have begun is given up
 _LAP = 4
+#: share of its objective to which a nominal model comes down from the optimum of a candidate, so that all begins anew
+OVERTAKEN = 0.5
 
 
 class Refitted(NamedTuple):
@@ -19,6 +23,40 @@ class Refitted(NamedTuple):
     fit: Fit | None
     null: Fit | None
     failure: str
+
+
+@dataclass(frozen=True)
+class Refits:
+    """Third step: ``results`` {index: Refitted} of candidates, beside the Calibration as their optima improved it.
+
+    ``directions`` of all candidates at its null; ``refitter``, a Refitter, made the results.
+    """
+
+    calibration: Calibration
+    directions: tuple
+    results: dict
+    refitter: Any
+
+    def at_noise(self, factor):
+        """These Refits, every value as it is, against noise ``factor`` times as large."""
+        calibration = self.calibration
+        budget = {name: noise.scaled(factor) for name, noise in calibration.budget.items()}
+        results = {i: r._replace(fit=r.fit and r.fit.at_noise(factor)) for i, r in self.results.items()}
+        return replace(self, calibration=replace(calibration, budget=budget, null=calibration.null.at_noise(factor)),
+                       directions=tuple(d.at_noise(factor) for d in self.directions), results=results)
+
+    def as_stated(self):
+        """These Refits with the null at steps as stated, as the leading results are."""
+        null = as_stated(self.calibration.problem, self.calibration.null)
+        return replace(self, calibration=replace(self.calibration, null=null))
+
+    def overtake(self, calibration):
+        """Whether the null of a Calibration, from which they began, was far from the best."""
+        return self.calibration.null.objective < OVERTAKEN * calibration.null.objective
+
+    def begun_anew(self, starts):
+        """These Refits with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
+        return replace(self, results=self.refitter.better(self.results, starts))
 
 
 #: of a candidate that could not even begin

@@ -11,10 +11,19 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, directions_like, tried
-from pipeline.inference.fitting.calibration import Calibration, ahead_of
+from pipeline.inference.fitting.calibration import ahead_of
 from pipeline.inference.fitting.fit_state import Fit, linearised, nominal_p
 from pipeline.inference.fitting.least_squares import again, beside
-from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest
+from pipeline.inference.fitting.refitted import (
+    NOT_BEGUN,
+    OVERTAKEN,
+    Refits,
+    Refitted,
+    advanced,
+    finished,
+    leader,
+    lowest,
+)
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.fitting.widening import TIMES, widened
 from pipeline.inference.problem import FanOut, Problem
@@ -24,8 +33,6 @@ from pipeline.inference.time_budget import TimeSpentError, spent
 
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 4
-#: share of its objective to which a nominal model comes down from the optimum of a candidate, so that all begins anew
-_OVERTAKEN = 0.5
 #: iterations of a fit that begins near its optimum
 _NEARBY = 10
 #: share of the noise power beyond it within which a nominal model nearly reaches the noise
@@ -34,35 +41,6 @@ _NEARLY = 1.0
 _FAR_OUT = 2.0
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
-
-
-@dataclass(frozen=True)
-class Refits:
-    """Third step: ``results`` {index: Refitted} of candidates, beside the Calibration as their optima improved it.
-
-    ``directions`` of all candidates at its null; ``refitter`` made the results.
-    """
-
-    calibration: Calibration
-    directions: tuple
-    results: dict
-    refitter: "Refitter"
-
-    def at_noise(self, factor):
-        """These Refits, every value as it is, against noise ``factor`` times as large."""
-        calibration = self.calibration
-        budget = {name: noise.scaled(factor) for name, noise in calibration.budget.items()}
-        results = {i: r._replace(fit=r.fit and r.fit.at_noise(factor)) for i, r in self.results.items()}
-        return replace(self, calibration=replace(calibration, budget=budget, null=calibration.null.at_noise(factor)),
-                       directions=tuple(d.at_noise(factor) for d in self.directions), results=results)
-
-    def overtake(self, calibration):
-        """Whether the null of a Calibration, from which they began, was far from the best."""
-        return self.calibration.null.objective < _OVERTAKEN * calibration.null.objective
-
-    def begun_anew(self, starts):
-        """These Refits with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
-        return replace(self, results=self.refitter.better(self.results, starts))
 
 
 def refit_catalogue(screening, catalogue, settings, fan_out, results=None, beside_a_first=False):
@@ -144,7 +122,7 @@ class Refitter:
 
     def overtaken(self, results):
         """Whether the null was at a wrong optimum: from that of a candidate in ``results`` it comes down far below."""
-        return any(r.null is not None and r.null.objective < _OVERTAKEN * self.null.objective
+        return any(r.null is not None and r.null.objective < OVERTAKEN * self.null.objective
                    for r in results.values())
 
     def _rivalled(self, results, starts, beside_a_first):

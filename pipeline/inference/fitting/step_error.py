@@ -3,8 +3,12 @@
 Of order 2 half the step changes three quarters of the error of the whole one. Where that matters against noise, the
 hypothesis steps half as far from then on (``Hypothesis.halvings``), and is refitted from where it is. What is left is
 carried in the error budget (``Fit.step_error``).
+
+Fits go the most of their ways with steps as long as the nominal model allows (``longest``); what leads, and the nominal
+model, is fitted with steps as stated before anything is decided (``as_stated``).
 """
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -13,14 +17,46 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.least_squares import continued
 
+#: times that a step is doubled at most
+_DOUBLED = 3
+
+
+def as_stated(problem, fit):
+    """The Fit at steps as stated, where they were longer, gone on from where it is. Raises what the forward model
+    raises."""
+    if fit.hypothesis.halvings >= 0:
+        return fit
+    return continued(problem, _stepped(problem, fit, 0), patient=False)
+
 
 def halved(problem, fit):
     """The Fit as it stands, its residuals predicted with half the time step. Raises what the forward model raises."""
-    hypothesis = replace(fit.hypothesis, halvings=fit.hypothesis.halvings + 1)
+    return _stepped(problem, fit, fit.hypothesis.halvings + 1)
+
+
+def _stepped(problem, fit, halvings):
+    hypothesis = replace(fit.hypothesis, halvings=halvings)
     residuals, error = whitened(problem, fit.noises, hypothesis, fit.latent, fit.runs)
     if error:
         raise error
     return replace(fit, hypothesis=hypothesis, residuals=tuple(residuals), converged=False, fresh=False, step_error=0.0)
+
+
+def longest(problem, noises, rules):
+    """Halvings, 0 or below as steps are doubled, at which the nominal model at its given values predicts the fitted
+    runs as it does with the stated step, by RefitRules ``rules``; 0 where it fails at that."""
+    nominal, latent = problem.nominal, problem.nominal.nominal
+
+    def predicted(halvings):
+        return whitened(problem, noises, replace(nominal, halvings=halvings), latent, problem.training)
+
+    stated, error = predicted(0)
+    for halvings in range(-_DOUBLED, 0) if not error else ():
+        doubled, error = predicted(halvings)
+        change = np.inf if error else sum(np.sum((a - b)**2) for a, b in zip(stated, doubled, strict=True))
+        if change <= rules.step_error * sum(len(r) for r in stated):
+            return halvings
+    return 0
 
 
 def changed(fit, finer):
@@ -37,6 +73,8 @@ def refined(problem, rules, fit):
 
     Where the forward model fails at a finer step, or halvings are used up, the last one.
     """
+    with suppress(BrakechainError):
+        fit = as_stated(problem, fit)
     for _ in range(rules.halvings):
         try:
             finer = halved(problem, fit)

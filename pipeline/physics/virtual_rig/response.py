@@ -6,6 +6,7 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, changed
@@ -19,6 +20,8 @@ from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 
 #: relative excess at which a step counts as the one that was stated: nine digits may be all that is
 _EVEN = 1e-6
+#: of the first four of equal distance on a cubic, what adds up to the one before
+_ONE_MORE = np.array([4.0, -6.0, 4.0, -1.0])
 
 
 @dataclass(frozen=True)
@@ -160,16 +163,32 @@ class Measured:
         """Bytes of its values."""
         return sum(values.nbytes for values, _ in self.parts)
 
+    def between(self, parts):
+        """The same at every of so many ``parts`` of its step as well: on the cubic through the four steps about them.
+        """
+        if parts == 1 or len(self.parts[0][0]) < len(_ONE_MORE):
+            return self
+        at = np.arange(parts) / parts
+        weights = np.array([-at * (at - 1) * (at - 2) / 6, (at + 1) * (at - 1) * (at - 2) / 2,
+                            -(at + 1) * at * (at - 2) / 2, (at + 1) * at * (at - 1) / 6])
+
+        def finer(values):
+            beyond = [end[:len(_ONE_MORE)] @ _ONE_MORE for end in (values, values[::-1])]
+            about = sliding_window_view(np.concatenate((beyond[:1], values, beyond[1:])), 4)
+            return np.append((about @ weights).ravel(), values[-1])
+
+        return Measured(self.step / parts, tuple((finer(values), sharp) for values, sharp in self.parts))
+
 
 class Responder:
     """Answers of one Bench to many runs, which share what depends on speed, step and friction alone.
 
     ``system`` is the ModalSystem of the model, where there is one already; ``halvings``: how often the steps of the
-    bench are halved.
+    bench are halved; below 0 doubled, and what is measured is interpolated on those of the bench.
     """
 
     def __init__(self, bench, system=None, halvings=0):
-        self.bench, self._system, self._steppers, self._finer = bench, system, {}, 2**halvings
+        self.bench, self._system, self._steppers, self._finer = bench, system, {}, 2.0**halvings
         self._rows, self._model = _watched(bench)
 
     def respond(self, run):
@@ -188,7 +207,7 @@ class Responder:
     def measured(self, run):
         """Measured of the channels in a Run, the way included that leads to it; errors as of ``respond``."""
         bench, run = self.bench, led_in(self.bench, run)
-        step = run.step(bench.step) / self._finer
+        step = run.step(bench.step / min(self._finer, 1)) / max(self._finer, 1)
         parts = round(1 / run.sample_rate / step)
         driven, inputs = resolved(bench, run, parts)
         speed, first = at_begin(bench, run)
@@ -201,7 +220,8 @@ class Responder:
         motion = stepping.run(steps * step, start=start, inputs=_history(inputs, driven, holding(bench, run)),
                               drive=_history([run_drive(bench, run)], run), book=False)
         simulated = SimulatedRun(under_load, driven, motion, inputs, step, self._rows)
-        return Measured(step, tuple(sensor.measurand.parts(simulated, sensor) for sensor in bench.channels))
+        measured = Measured(step, tuple(sensor.measurand.parts(simulated, sensor) for sensor in bench.channels))
+        return measured.between(1 if self._finer >= 1 else int(np.ceil(step / run.step(bench.step) - _EVEN)))
 
     def _stepper(self, bench, friction, speed, step):
         """Stepper of the bench under the load of a run; runs without one share that of their speed, step and friction.

@@ -1,11 +1,13 @@
 """The error of the time step: found by half of it, refined where it matters, left alone where it does not."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget
-from pipeline.inference.fitting.step_error import changed, halved, refined
+from pipeline.inference.fitting.step_error import as_stated, changed, halved, longest, refined
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
 from pipeline.inference.rules import RefitRules
@@ -53,3 +55,20 @@ def test_a_step_whose_error_does_not_matter_costs_one_prediction_more():
     same = refined(problem, RefitRules(), whole)
     assert asked == [1] and same.hypothesis is whole.hypothesis and same.latent is whole.latent
     assert 0 < same.step_error < 1e-3 * len(TIME)
+
+
+def test_steps_are_doubled_only_as_far_as_the_nominal_model_stays_what_it_is():
+    noisy, near, fine = (decays(std)[0] for std in (3.0, 0.3, 1e-5))
+    doubled = [longest(problem, [budget(problem)["a"]], RefitRules()) for problem in (noisy, near, fine)]
+    assert doubled[0] < doubled[1] < doubled[2] == 0 and doubled[0] >= -3
+
+
+def test_what_was_fitted_with_long_steps_ends_where_stated_ones_lead():
+    problem, whole = decays(2e-3, steps=8)
+    longer = replace(problem.nominal, halvings=-2)
+    rough = fit(problem, whole.noises, longer, whole.latent, problem.runs)
+    stated = as_stated(problem, rough)
+    std = np.sqrt(whole.covariance()[0, 0])
+    assert abs(rough.latent[0] - whole.latent[0]) > 2 * std > 10 * abs(stated.latent[0] - whole.latent[0])
+    assert stated.hypothesis.halvings == 0 and stated.objective == pytest.approx(whole.objective, rel=1e-4)
+    assert as_stated(problem, whole) is whole and refined(problem, RefitRules(), rough).hypothesis.halvings >= 0

@@ -11,7 +11,7 @@ from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Polynomial
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start
 from pipeline.physics.virtual_rig.force_residual import equation_residual
-from pipeline.physics.virtual_rig.response import Bench, Run, respond
+from pipeline.physics.virtual_rig.response import Bench, Responder, Run, respond
 from pipeline.physics.virtual_rig.sensor import (
     ACCELERATION,
     DISPLACEMENT,
@@ -57,6 +57,18 @@ def test_motions_at_the_rate_of_the_run(k, quantity):
     exact = free_decay(run.time)[k]
     assert len(shown_) == 201
     np.testing.assert_allclose(shown_, exact, atol=2e-5 * abs(exact).max())
+
+
+@pytest.mark.exact
+def test_what_is_measured_at_long_steps_is_interpolated_to_fourth_order():
+    """The linear part of a motion is exact at any step: what stays is that of the cubics between the steps."""
+    errors = []
+    for halvings in (-5, -4):       # a fourth and a seventh of a sample, 25 and 44 a period
+        found = Responder(sprung(seen("displacement"), step=1e-3), halvings=halvings).measured(swing(10.0))
+        (values, _), = found.parts
+        assert found.step <= 1e-3 and len(values) == round(2 / found.step) + 1
+        errors.append(abs(values - free_decay(found.step * np.arange(len(values)))[0]).max() / 0.01)
+    assert errors[1] < 2e-4 and errors[0] == pytest.approx((7 / 4)**4 * errors[1], rel=0.1)
 
 
 @pytest.mark.exact

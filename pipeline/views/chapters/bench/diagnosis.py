@@ -25,8 +25,8 @@ def headline(product):
     verb = "is" if " and " not in named else "are"
     tie = "Missing effect identified up to ambiguity" if len(product.named) > 1 else _PROPOSED
     sentences = {
-        "missing": (f"{_first_up(named)} {verb} missing ({_sure(product)})", "warning"),
-        "tie": (f"{tie}: {named}", "warning"),
+        "missing": (f"{_first_up(named)} {verb} missing{_in_part(product)} ({_sure(product)})", "warning"),
+        "tie": (f"{tie}: {named}{_in_part(product)}", "warning"),
         "sensor": (f"{_measured(product)}: {named} ({_sure(product)})", "warning"),
         "numerics": (f"The solver, not the physics: {named}", "warning"),
         "parameters": ("Parameter values are off; no physics is missing", "warning"),
@@ -145,12 +145,23 @@ def _listed(items):
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
 
 
+def _in_part(product):
+    """', in part: ...' of what is named and leaves more than noise."""
+    if not product.in_part.item():
+        return ""
+    return f", in part: {percent(product.unexplained_share.item(), 2)} of the excess error stays"
+
+
 def _left(product):
     """What is above the noise once all that is sure has been named."""
     if not len(product.named) or not product.left_sentence.item():
         return ""
     following = product.left_candidate.item()
-    return (f"{number(product.left_floors.item(), 3)} noise floors remain. {_sentence(product.left_sentence.item())}"
+    part = (f"The law holds in part: no model of one effect reaches the noise, and it is told from the others beside"
+            f" an error of {number(product.model_error.item(), 2)} noise floors, which the best of them leave. "
+            if product.model_error.item() > 1 else "")
+    return (f"{part}{number(product.left_floors.item(), 3)} noise floors remain."
+            f" {_sentence(product.left_sentence.item())}"
             f"{f' Next candidate: {_sentence(words(following))}' if following else ''}")
 
 
