@@ -169,8 +169,8 @@ def _weighed(refits, settings, null, laws, objected=None):
 
 @dataclass(frozen=True)
 class VerdictAtNoise:
-    """What the decision would be if noise were ``factor`` times what is stated: its ``verdict`` and whom it ``named``.
-    """
+    """What the decision would be if noise, or the error of the model beside which something is named, were ``factor``
+    times as large: its ``verdict`` and whom it ``named``."""
 
     factor: float
     verdict: str
@@ -184,7 +184,8 @@ def over_noise(diagnosis, settings, factors):
         return [VerdictAtNoise(float(factor), "unknown", ()) for factor in factors]
     told = []
     for factor in factors:
-        _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
+        noise = factor * diagnosis.model_error
+        _, decision = _weighed(diagnosis.refits.at_noise(noise), settings, diagnosis.recalibrated.at_noise(noise),
                                diagnosis.laws, diagnosis.objected)
         told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
     return told

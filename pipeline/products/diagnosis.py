@@ -145,7 +145,7 @@ class Diagnosis:
     leading_stays: Array = quantity("1", "leading", "share that stays beyond the doubt about noise")
     model_error: Array = quantity("1", "", "error of the model beside which what is named is told from the others, in noise floors; 1 where noise alone is")
     in_part: Array = count("", "1 where what is named leaves more than noise: it holds in part")
-    noise_level: Array = quantity("1", "level", "noise as a multiple of what is known of it")
+    noise_level: Array = quantity("1", "level", "noise as a multiple of what is known of it, or of the model error")
     noise_verdict: Array = text("level", "verdict at that level, all fitted values as they are")
     noise_named: Array = text("level", "hypotheses named there, joined by ' or '; empty for none")
     completed_step: Array = quantity("s", "", "time step that the completed model needs; 0 where that of the case does")

@@ -31,7 +31,7 @@ def test_a_law_that_holds_in_part_is_named_and_what_stays_is_told(drag):
     assert solved.model_error > 1.2 and "holds in part" in decision.reasons[0]
     assert 0.2 * solved.model_error < floors(completed) < 1.1 * solved.model_error, "fits stand beside the stated noise"
     assert floors(solved.null) > 4 * solved.model_error
-    assert over_noise(solved, SETTINGS, (solved.model_error,))[0].verdict == "missing"
+    assert over_noise(solved, SETTINGS, (1.0,))[0].verdict == "missing", "levels are multiples of that error"
 
 
 @pytest.mark.parametrize(("drag", "verdict"), [

@@ -114,6 +114,16 @@ def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_c
     assert "the same at 0.5 and 2 times the noise" in dict(note(diagnosis()))["How certain"]
 
 
+def test_what_holds_in_part_says_so_with_what_it_leaves():
+    found = diagnosis(in_part=1, model_error=3.1, left_floors=2.9, left_sentence="It lies between 20 and 40 Hz.",
+                      unexplained_share=0.021, noise_verdict=["unknown", "missing"])
+    assert "coulomb at guide is missing, in part: 2.1\u202f% of the excess error stays" in headline(found)[0].lower()
+    told = dict(note(found))
+    assert "holds in part" in told["What is left"] and "beside an error of 3.1 noise floors" in told["What is left"]
+    assert "it would be unknown at 0.5 times the error of the model" in told["How certain"]
+    assert "in part" not in headline(diagnosis())[0] + dict(note(diagnosis()))["What is left"]
+
+
 def test_what_is_left_after_naming_is_told_with_the_next_candidate():
     found = diagnosis(left_floors=7.6, left_sentence="It lies between 20 and 40 Hz.",
                       left_candidate="quadratic_damping at arm: it leaves 30% of the excess error")

@@ -71,6 +71,15 @@ def test_the_completed_case_has_the_same_held_out_error():
     assert error == pytest.approx(told().fit[1, 2], rel=1e-9)
 
 
+def test_the_grade_says_how_far_what_is_named_holds():
+    assert as_json(told())["grade"] == "to the noise" and as_json(told())["model_error"] == 1
+    assert as_json(replace(told(), in_part=np.ones((), int)))["grade"] == "in part"
+    nothing = np.zeros(0, int)
+    assert as_json(replace(told(), named=nothing))["grade"] == ""
+    assert as_json(replace(told(), named=nothing, leading=np.ones(1, int), leading_takes=np.ones(1),
+                           leading_stays=np.zeros(1)))["grade"] == "leading"
+
+
 def test_the_latent_force_is_written_as_numbers():
     lines = companions(told(), CASE)["latent_force.csv"].splitlines()
     assert lines[0].endswith("description, not identified physics.") and lines[1].startswith("run,time_s,force_N")
