@@ -47,7 +47,7 @@ class Refits:
 
     def as_stated(self):
         """These Refits with the null at steps as stated, as the leading results are."""
-        null = as_stated(self.calibration.problem, self.calibration.null)
+        null = as_stated(self.calibration.problem, self.refitter.rules.refit, self.calibration.null)
         return replace(self, calibration=replace(self.calibration, null=null))
 
     def overtake(self, calibration):

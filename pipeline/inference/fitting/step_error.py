@@ -19,14 +19,25 @@ from pipeline.inference.fitting.least_squares import continued
 
 #: times that a step is doubled at most
 _DOUBLED = 3
+#: standard deviations by which doubled steps may shift a value that is not fitted anew with stated ones
+_SHIFTED = 0.1
 
 
-def as_stated(problem, fit):
-    """The Fit at steps as stated, where they were longer, gone on from where it is. Raises what the forward model
-    raises."""
+def as_stated(problem, rules, fit):
+    """The Fit at steps as stated, where they were longer, gone on from where it is if that matters by RefitRules
+    ``rules``. Raises what the forward model raises."""
     if fit.hypothesis.halvings >= 0:
         return fit
-    return continued(problem, _stepped(problem, fit, 0), patient=False)
+    stated = _stepped(problem, fit, 0)
+    error, shift = changed(fit, stated)
+    if error <= _most(rules, fit) and shift <= _SHIFTED:
+        return replace(stated, converged=fit.converged)
+    return continued(problem, stated, patient=False)
+
+
+def _most(rules, fit):
+    """Largest squared change by the step that does not matter."""
+    return rules.step_error * max(fit.counts.sum(), fit.chi_square.sum())
 
 
 def halved(problem, fit):
@@ -74,14 +85,13 @@ def refined(problem, rules, fit):
     Where the forward model fails at a finer step, or halvings are used up, the last one.
     """
     with suppress(BrakechainError):
-        fit = as_stated(problem, fit)
+        fit = as_stated(problem, rules, fit)
     for _ in range(rules.halvings):
         try:
             finer = halved(problem, fit)
             error, shift = changed(fit, finer)
             fit = replace(fit, step_error=error)
-            matters = rules.step_error * max(fit.counts.sum(), fit.chi_square.sum())
-            if error <= matters and shift <= rules.step_shift:
+            if error <= _most(rules, fit) and shift <= rules.step_shift:
                 return fit
             fit = replace(continued(problem, finer, patient=False), step_error=error)
         except BrakechainError:

@@ -67,8 +67,8 @@ def test_what_was_fitted_with_long_steps_ends_where_stated_ones_lead():
     problem, whole = decays(2e-3, steps=8)
     longer = replace(problem.nominal, halvings=-2)
     rough = fit(problem, whole.noises, longer, whole.latent, problem.runs)
-    stated = as_stated(problem, rough)
+    stated = as_stated(problem, RefitRules(), rough)
     std = np.sqrt(whole.covariance()[0, 0])
     assert abs(rough.latent[0] - whole.latent[0]) > 2 * std > 10 * abs(stated.latent[0] - whole.latent[0])
     assert stated.hypothesis.halvings == 0 and stated.objective == pytest.approx(whole.objective, rel=1e-4)
-    assert as_stated(problem, whole) is whole and refined(problem, RefitRules(), rough).hypothesis.halvings >= 0
+    assert as_stated(problem, RefitRules(), whole) is whole and refined(problem, RefitRules(), rough).hypothesis.halvings >= 0
