@@ -15,8 +15,8 @@ from pipeline.inference.time_budget import spent
 
 #: times that all is asked, and factor from one noise to the next where nothing is named beside the first
 _ROUNDS, _LARGER = 4, 2.0
-#: factor on the noise that matters: of the first over what is stated, of one at which a law is named over the next
-_MATTERS = 1.2
+#: factor of the noise at which a law is named over the next that is tried
+_LESS = 1.2
 #: verdicts that may hold in part
 _OF_LAWS = ("missing", "tie")
 
@@ -29,7 +29,7 @@ def beside_it(asked, told):
     rules, named = asked.settings.rules.decision, told
     factor, largest = _left(told, told.weighed), np.sqrt(rules.unexplained) * _floors(told.null)
     for _ in range(_ROUNDS):
-        if spent() or not _MATTERS < factor < largest:
+        if spent() or not rules.in_part < factor < largest:
             break
         larger = {name: noise.scaled(factor) for name, noise in asked.budget.items()}
         try:
@@ -39,7 +39,7 @@ def beside_it(asked, told):
         if again.decision.verdict in _OF_LAWS and {w.candidate.kind for w in again.named} == {"physics"}:
             named = _as_stated(again, factor)
             less = _left(named, named.named)
-            factor = less if less * _MATTERS < factor else np.inf
+            factor = less if less * _LESS < factor else np.inf
         elif named is told and again.decision.verdict == "unknown":     # else nothing is missing beside that error
             factor *= _LARGER
         else:

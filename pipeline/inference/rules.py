@@ -96,6 +96,8 @@ class DecisionRules:
                                             " below, no real law is exact")
     from_null: float = threshold(2.0, "distance of the coefficient from its null in standard deviations")
     unexplained: float = threshold(0.05, "fraction of the excess error that the named effect may leave")
+    in_part: float = threshold(1.2, "noise floors that a law leaves from which on it holds in part, and from which on"
+                                    " it is asked what holds beside an error of the model")
     held_out_left: float = threshold(0.1, "the same on held-out runs, whose conditions may be new")
     start_share: float = threshold(0.25, "fraction of a held-out run to which its unknown start is fitted; the rest is"
                                          " judged")

@@ -19,8 +19,6 @@ from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Lat
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
-#: noise floors beyond which what is named holds in part
-_IN_PART = 1.2
 #: factor by which the error of the fitted runs may grow with the recalibration before it is told
 _GROWN = 1.1
 
@@ -50,8 +48,8 @@ def product(problem, diagnosis, contacts=None):
                      problem.noise_levels, otherwise=())
     further = attempt("the next experiment", next_experiment, problem, diagnosis, otherwise=NOTHING)
     result = Diagnosis(
-        verdict=diagnosis.decision.verdict, other_machine="",
-        model_error=diagnosis.model_error, in_part=int(bool(diagnosis.decision.named) and left.floors > _IN_PART),
+        verdict=diagnosis.decision.verdict, other_machine="", model_error=diagnosis.model_error,
+        in_part=int(bool(diagnosis.decision.named) and left.floors > problem.rules.decision.in_part),
         reason=[*diagnosis.decision.reasons, *_grown(fits[0]), *problem.remarks, *short(runs, problem.budget),
                 *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
