@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from pipeline.inference import model_error
 from pipeline.inference.diagnosis import Settings, over_noise
 from pipeline.inference.procedure import Asked, diagnose
 from tests.inference.falling_ball import CATALOGUE, bench
 
-SETTINGS = Settings(draws=2000)
+SETTINGS = Settings(draws=500)
 
 
 def told(drag):
@@ -23,9 +22,8 @@ def waving(v):
     return 0.5 * v + 3.0 * np.sin(v)
 
 
-@pytest.mark.parametrize("drag", [waving, lambda v: 1.3 * v**0.6])
-def test_a_law_that_holds_in_part_is_named_and_what_stays_is_told(drag):
-    solved = told(drag)
+def test_a_law_that_holds_in_part_is_named_and_what_stays_is_told():
+    solved = told(waving)
     decision, completed = solved.decision, solved.completed
     assert decision.verdict == "missing" and [c.name for c in decision.named] == ["viscous"]
     assert solved.model_error > 1.2 and "holds in part" in decision.reasons[0]
@@ -36,14 +34,10 @@ def test_a_law_that_holds_in_part_is_named_and_what_stays_is_told(drag):
 
 @pytest.mark.parametrize(("drag", "verdict"), [
     (lambda v: 0.0 * v, "consistent"), (lambda v: 0.5 * v, "missing"), (lambda v: 6.0 * np.sin(0.3 * v), "unknown")])
-def test_what_reaches_the_noise_or_is_like_nothing_is_told_as_before(drag, verdict, monkeypatch):
+def test_what_reaches_the_noise_or_is_like_nothing_is_not_told_so(drag, verdict):
     solved = told(drag)
-    monkeypatch.setattr(model_error, "beside_it", lambda asked, before: before)
-    before = told(drag)
-    assert solved.decision.verdict == before.decision.verdict == verdict
-    assert solved.model_error == 1 and solved.decision.named == before.decision.named
-    if verdict == "unknown":
-        assert not any("holds in part" in reason for reason in solved.decision.reasons)
+    assert solved.decision.verdict == verdict
+    assert solved.model_error == 1 and not any("holds in part" in reason for reason in solved.decision.reasons)
 
 
 def test_a_failure_there_leaves_what_was_told_beside_the_stated_noise(monkeypatch):
