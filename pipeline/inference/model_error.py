@@ -37,7 +37,7 @@ def beside_it(asked, told):
         except Exception as error:      # what was told beside the stated noise stands
             return named.remarked(f"whether a law holds in part could not be computed: {sentence_of(error)}")
         if again.decision.verdict in _OF_LAWS and {w.candidate.kind for w in again.named} == {"physics"}:
-            named = _as_stated(again, factor)
+            named = _beside_stated(again, factor)
             less = _left(named, named.named)
             factor = less if less * _LESS < factor else np.inf
         elif named is told and again.decision.verdict == "unknown":     # else nothing is missing beside that error
@@ -64,7 +64,7 @@ def _floors(fit):
     return float(np.sqrt(fit.chi_square.sum() / fit.counts.sum()))
 
 
-def _as_stated(again, factor):
+def _beside_stated(again, factor):
     """A Diagnosis beside noise ``factor`` times as large, its fits beside the stated noise, and a word on that."""
     refits = again.refits.at_noise(1 / factor)
     weighed = tuple(replace(w, fit=w.fit.at_noise(1 / factor)) for w in again.weighed)

@@ -4,8 +4,8 @@ Of order 2 half the step changes three quarters of the error of the whole one. W
 hypothesis steps half as far from then on (``Hypothesis.halvings``), and is refitted from where it is. What is left is
 carried in the error budget (``Fit.step_error``).
 
-Fits go the most of their ways with steps as long as the nominal model allows (``longest``); what leads, and the nominal
-model, is fitted with steps as stated before anything is decided (``as_stated``).
+Fits go most of their way with steps as long as the nominal model allows (``longest``); what leads, and the nominal
+model, is predicted with steps as stated before anything is decided, and goes on where that matters (``as_stated``).
 """
 
 from contextlib import suppress

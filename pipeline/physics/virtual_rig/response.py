@@ -188,7 +188,8 @@ class Responder:
     """
 
     def __init__(self, bench, system=None, halvings=0):
-        self.bench, self._system, self._steppers, self._finer = bench, system, {}, 2.0**halvings
+        self.bench, self._system, self._steppers = bench, system, {}
+        self._finer, self._longer = 2**max(halvings, 0), 2**max(-halvings, 0)
         self._rows, self._model = _watched(bench)
 
     def respond(self, run):
@@ -207,7 +208,7 @@ class Responder:
     def measured(self, run):
         """Measured of the channels in a Run, the way included that leads to it; errors as of ``respond``."""
         bench, run = self.bench, led_in(self.bench, run)
-        step = run.step(bench.step / min(self._finer, 1)) / max(self._finer, 1)
+        step = run.step(bench.step * self._longer) / self._finer
         parts = round(1 / run.sample_rate / step)
         driven, inputs = resolved(bench, run, parts)
         speed, first = at_begin(bench, run)
@@ -221,7 +222,7 @@ class Responder:
                               drive=_history([run_drive(bench, run)], run), book=False)
         simulated = SimulatedRun(under_load, driven, motion, inputs, step, self._rows)
         measured = Measured(step, tuple(sensor.measurand.parts(simulated, sensor) for sensor in bench.channels))
-        return measured.between(1 if self._finer >= 1 else int(np.ceil(step / run.step(bench.step) - _EVEN)))
+        return measured.between(int(np.ceil(step / run.step(bench.step) - _EVEN)))
 
     def _stepper(self, bench, friction, speed, step):
         """Stepper of the bench under the load of a run; runs without one share that of their speed, step and friction.

@@ -134,12 +134,14 @@ def _levels(product):
     verdicts = [(float(level), str(v), str(named)) for level, v, named in zip(
         product.noise_level, product.noise_verdict, product.noise_named, strict=True)]
     other = [(level, v, named) for level, v, named in verdicts if v != product.verdict.item()]
-    known, of = ("what is known of it", "the noise") if product.model_error <= 1 else ["the error of the model"] * 2
-    if not verdicts or not other:
-        return f"The verdict is the same at {_listed([number(v[0], 2) for v in verdicts])} times {of}." \
-            if verdicts else ""
+    error = "the error of the model" if product.model_error > 1 else ""
+    if not verdicts:
+        return ""
+    if not other:
+        same = _listed([number(level, 2) for level, _, _ in verdicts])
+        return f"The verdict is the same at {same} times {error or 'the noise'}."
     parts = [f"{v}{f' ({words(named)})' if named else ''} at {number(level, 2)} times" for level, v, named in other]
-    return f"The verdict hangs on the level of noise: it would be {_listed(parts)} {known}."
+    return f"The verdict hangs on the level of noise: it would be {_listed(parts)} {error or 'what is known of it'}."
 
 
 def _listed(items):
