@@ -263,6 +263,7 @@ class Bench:
         for key, chance, value in (
                 ("solver", 0.4, False), ("seed", 0.1, 3),
                 ("latent_force", 0.3 if "held_out" in asked and "forward" not in bench else 0.01, {"predict": True}),
+                ("time", 0.3, self._one("1 s", "5 s", "20 s")),
                 ("without", 0.1, ["lugre"]), ("places", 0.1, ["spring_0"]), ("kept", 0.02, 8),
                 ("priors", 0.1, {"coulomb.force": {"prior": "half_normal", "std": "1 N"}}),
                 ("next", 0.15, {"joints.spring_0.stiffness": [2.0]}),
