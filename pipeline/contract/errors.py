@@ -27,6 +27,8 @@ class BrakechainError(Exception):
     """Base of every error that a user can correct; ``str(error)`` is the complete message."""
 
     exit_code = 1
+    #: whether a shorter time step may do
+    shorter_step = False
 
     def __init__(self, where, expected=None, found=None, remedy=None):
         self.where, self.expected, self.found, self.remedy = where, expected, found, remedy
@@ -50,6 +52,18 @@ class ConvergenceError(BrakechainError):
     """An iteration stopped short of its tolerance; unconverged results are never returned."""
 
     exit_code = 3
+
+
+class LongStepError(ConfigError):
+    """A time step is too long for what it has to follow."""
+
+    shorter_step = True
+
+
+class UnsettledStepError(ConvergenceError):
+    """An iteration within a time step stopped short of its tolerance; a shorter one may do."""
+
+    shorter_step = True
 
 
 class ProductError(BrakechainError):

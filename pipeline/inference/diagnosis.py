@@ -197,6 +197,6 @@ def reaches_noise(diagnosis, rules):
     def reaches(weighed):
         statistics = weighed.statistics
         return (weighed.fit.reaches_noise(rules.decision.noise_uncertainty) and not statistics.unexplained
-                and statistics.held_out_left <= rules.decision.held_out_left)
+                and (statistics.held_out_left or 0.0) <= rules.decision.held_out_left)
 
     return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))

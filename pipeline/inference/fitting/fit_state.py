@@ -19,6 +19,8 @@ from pipeline.inference.time_budget import TimeSpentError, spent
 DIFFERENCE = 1e-4
 #: predictions beyond which squares are no numbers any more
 _LARGEST = 1e100
+#: times that steps which do not settle are halved, from those of the bench
+_HALVED = 2
 #: noise powers beyond which a residual is far off
 FAR = 100.0
 
@@ -184,11 +186,26 @@ def whitened(problem, noises, hypothesis, latent, runs):
 
 
 def linearised(problem, noises, hypothesis, latent, runs, known=()):
-    """Fit without iteration: residuals and Jacobians at ``latent``. Raises what the forward model raises.
+    """Fit without iteration: residuals and Jacobians at ``latent``; with shorter steps where those of the forward model
+    do not settle. Raises what the forward model raises.
 
     ``known`` [(m_r, i)]: the first columns of the Jacobians, taken as they are.
     """
     latent = np.asarray(latent, float)
+    try:
+        return _linearised(problem, noises, hypothesis, latent, runs, known)
+    except BrakechainError as error:
+        if not shortened(error, hypothesis):
+            raise
+    return linearised(problem, noises, replace(hypothesis, halvings=hypothesis.halvings + 1), latent, runs, known)
+
+
+def shortened(error, hypothesis):
+    """Whether a hypothesis whose forward model failed with an ``error`` is worth a try with steps half as long."""
+    return error.shorter_step and hypothesis.halvings < _HALVED
+
+
+def _linearised(problem, noises, hypothesis, latent, runs, known):
     residuals, error = whitened(problem, noises, hypothesis, latent, runs)
     if error:
         raise error

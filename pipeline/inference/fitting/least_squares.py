@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed
+from pipeline.contract.errors import BrakechainError
+from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed, shortened
 from pipeline.inference.fitting.steps import along_valley, damped_step, newton_step, within
 from pipeline.inference.time_budget import TimeSpentError, spent
 
@@ -54,13 +55,21 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
     without ``patient`` where features stay far off. Where its iterations do not end by themselves, central differences
     tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. Near the noise
-    it goes on along them, and from there on as before where it is nearly at its end.
+    it goes on along them, and from there on as before where it is nearly at its end. Where steps of the forward model
+    do not settle on the way it begins again with shorter ones.
     """
-    state = iterated(problem, state, iterations, enough, patient)
+    begun = state
     try:
+        state = iterated(problem, begun, iterations, enough, patient)
         return _ended(problem, state, iterations, enough, patient)
     except TimeSpentError:
         return state
+    except BrakechainError as error:
+        if not shortened(error, begun.hypothesis):
+            raise
+    finer = replace(begun.hypothesis, halvings=begun.hypothesis.halvings + 1)
+    return continued(problem, linearised(problem, begun.noises, finer, begun.latent, begun.runs), iterations, enough,
+                     patient)
 
 
 def _ended(problem, state, iterations, enough, patient):

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.contract.errors import ConfigError, ConvergenceError, LongStepError, UnsettledStepError
 from pipeline.physics.friction.dry_friction import FACTOR, coefficient, constant, kernel
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.time_stepping.contact_solver import JAMMED, OPEN, SLIP, SOLVED, STICK, TOO_LONG, UNCONVERGED
@@ -299,20 +299,21 @@ def _failure(code, time, contact, step, model):
     if code in (TOO_STIFF, UNSETTLED):
         where = f"time stepping at t = {time:.6g} s, element {model.elements[contact].name}"
         if code == TOO_STIFF:
-            return ConfigError(f"{where}: step", "at least 8 steps in a period of the element",
+            return LongStepError(f"{where}: step", "at least 8 steps in a period of the element",
                                f"steps of {step:.3g} s", "shorten the step, or soften the element")
-        return ConvergenceError(where, "a force that settles", "none after the last sweep", "take a shorter step")
+        return UnsettledStepError(where, "a force that settles", "none after the last sweep", "take a shorter step")
     if code == UNTURNED:
-        return ConvergenceError(f"time stepping at t = {time:.6g} s", "gyroscopic forces that settle",
-                                "none after the last sweep", "take a shorter step")
+        return UnsettledStepError(f"time stepping at t = {time:.6g} s", "gyroscopic forces that settle",
+                                  "none after the last sweep", "take a shorter step")
     where = f"time stepping at t = {time:.6g} s, contact {contact}"
     if code == TOO_LONG:
-        return ConfigError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
+        return LongStepError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
                            "shorten the step, or soften the contact")
     if code == JAMMED:
         return ConvergenceError(where, "a solvable contact problem", "frictional wedging (jamming)",
                                 "lower friction, change the tilt, or let the contact yield")
     if code == UNCONVERGED:
-        return ConvergenceError(where, "contact forces that settle", "none after the last sweep", "take a shorter step")
+        return UnsettledStepError(where, "contact forces that settle", "none after the last sweep",
+                                  "take a shorter step")
     return ConvergenceError(f"time stepping at t = {time:.6g} s", "a finite motion", "unbounded growth",
                             "take a shorter step, or look for an unphysical source of energy")

@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.inference.fitting.least_squares import fit
+from pipeline.contract.errors import BrakechainError, UnsettledStepError
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import continued, fit
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.step_error import as_stated, changed, halved, longest, refined
 from pipeline.inference.priors import Normal, Parameter
@@ -73,3 +75,31 @@ def test_what_was_fitted_with_long_steps_ends_where_stated_ones_lead():
     assert stated.hypothesis.halvings == 0 and stated.objective == pytest.approx(whole.objective, rel=1e-4)
     assert as_stated(problem, RefitRules(), whole) is whole
     assert refined(problem, RefitRules(), rough).hypothesis.halvings >= 0
+
+
+def unsettled(problem, settles):
+    """The Problem with a forward model whose steps do not settle where ``settles(halvings, values)`` is not true."""
+    def predict(hypothesis, values, run):
+        if not settles(hypothesis.halvings, values):
+            raise UnsettledStepError("time stepping", "a force that settles", "none", "take a shorter step")
+        return problem.predict(hypothesis, values, run)
+
+    return replace(problem, predict=predict)
+
+
+def test_steps_that_do_not_settle_are_halved_where_a_fit_begins():
+    problem, whole = decays(0.1)
+    begun = linearised(unsettled(problem, lambda halvings, values: halvings >= 1), whole.noises, problem.nominal,
+                       whole.latent, problem.runs)
+    assert begun.hypothesis.halvings == 1 and begun.objective == pytest.approx(whole.objective, rel=1e-2)
+    with pytest.raises(BrakechainError, match="a force that settles"):
+        linearised(unsettled(problem, lambda halvings, values: False), whole.noises, problem.nominal, whole.latent,
+                   problem.runs)
+
+
+def test_a_fit_whose_steps_do_not_settle_on_the_way_begins_again_with_shorter_ones():
+    problem, whole = decays(1e-4)
+    begun = replace(linearised(problem, whole.noises, problem.nominal, problem.nominal.nominal, problem.runs),
+                    jacobians=(np.zeros((len(TIME), 1)),), fresh=False)
+    ended = continued(unsettled(problem, lambda halvings, values: halvings >= 1), begun)
+    assert ended.hypothesis.halvings == 1 and ended.converged and ended.objective < begun.objective
