@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, instead, sentence_of
-from pipeline.inference import model_error, several
+from pipeline.inference import model_error, pairs, several
 from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
@@ -73,7 +73,7 @@ class Asked:
             open_ = single.decision.verdict in ("unknown", "missing") and not (single.cut_short or self.alone)
             if open_ and len(self.problem.runs) > 1:
                 single = (self.along(single, motions) if motions else
-                          self.by_the_screen(self.pairs(single, self.catalogue)))
+                          self.by_the_screen(pairs.beside(self, single, self.catalogue)))
             if self.settings.tied_seconds and single.decision.verdict == "unknown":
                 return self._tied_pair(single)
         except TimeSpentError:
@@ -140,14 +140,14 @@ class Asked:
         if best is not None and not second_effect.has_room(best, best.betters(single.null), rules):
             return single
         if best is not None and reaches_noise(single, rules):
-            return self.pairs(single, self.catalogue)
+            return pairs.beside(self, single, self.catalogue)
         along = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
         if along is None:
-            return self.pairs(single, self.catalogue)
+            return pairs.beside(self, single, self.catalogue)
         selection = along.selected()
         badly = selection.left > rules.decision.along_motions
         if badly:
-            pair = self.pairs(single, self.catalogue)
+            pair = pairs.beside(self, single, self.catalogue)
             if pair.base is not None and reaches_noise(pair, rules):
                 return pair
         best = self._simple_first(single, along, selection)
@@ -155,7 +155,7 @@ class Asked:
             return best
         unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
         seconds = unseen if badly or best.named else self.catalogue     # motions have misled, or not shown all
-        return self.pairs(best, seconds) if seconds else best
+        return pairs.beside(self, best, seconds) if seconds else best
 
     def _simple_first(self, single, along, selection):
         """``together`` of a Selection along motions, unless candidates that are not elaborate reach the noise."""
@@ -233,7 +233,7 @@ class Asked:
     def _named_beside(self, single, fit, law, known):
         """``named_together`` of one ``law`` of those whose Fit is given, the others ``known``: it was taken as known
         beside what else explained less than beside them."""
-        return self.given(known).named_together(single, _start_of(fit, single, law, known), law, known)
+        return self.given(known).named_together(single, pairs.start_of(fit, single, law, known), law, known)
 
     def fitted_together(self, null, start, last):
         """Fit of the laws that are taken as known and of a Hypothesis ``last``, from latent values ``start`` of all, or
@@ -278,74 +278,6 @@ class Asked:
                                         (*known, first.candidate), rules)
         return (None if reasons else whole), "; ".join(reasons)
 
-    def pairs(self, single, seconds):
-        """The Diagnosis of a pair of a leading effect and one of ``seconds`` that matters, else ``single``."""
-        for first in second_effect.leading(single, self.settings.rules):
-            pair, matters = self._pair(single, first, seconds)
-            why = matters and pair.decision.verdict == "missing" and self._not_told(single, first, pair)
-            if matters and not why:
-                return replace(pair, combinations=single.combinations)
-            if first in single.named:
-                single = self._unless_mended(replace(single, further=pair), first, why)
-            elif why:
-                single = single.remarked(why)
-        return single
-
-    def _not_told(self, single, first, pair):
-        """Why the ``first`` law, which a ``pair`` takes as known, is not told from others beside what that names; else
-        ''."""
-        taken = {parameter.name for parameter in pair.nominal.parameters}
-        if not taken.issuperset(parameter.name for parameter in first.candidate.parameters):
-            return ""
-        known, fit = [pair.named[0].candidate], pair.named[0].fit
-        start = _start_of(fit, single, first.candidate, known)
-        try:
-            told = self.given(known).weighed_together(single, start, first.candidate, known)
-        except BrakechainError as error:
-            return f"{first.candidate.name} beside {known[0].name}: {sentence_of(error)}"
-        if first.candidate.name in [c.name for c in told.decision.named] and told.decision.verdict == "missing":
-            return ""
-        return f"{first.candidate.name} beside {known[0].name}: {'; '.join(told.decision.reasons[:2])}"
-
-    def _unless_mended(self, single, first, why):
-        """The Diagnosis ``single`` of a law ``first``, decided anew where there is a reason ``why`` it is not told, or
-        where what was tried beside it says that it is of another form."""
-        explained, rules = first.fit.betters(single.null), self.settings.rules
-        why = why or (single.further and second_effect.mends(single.further, explained, rules))
-        return self._objected(single, {first.candidate.name: why}) if why else single
-
-    def _pair(self, single, first, seconds):
-        """(Diagnosis with the ``first`` Weighed taken as known or None, whether it names one of ``seconds`` that
-        matters)."""
-        rules, explained = self.settings.rules, first.fit.betters(single.null)
-        if not second_effect.has_room(first.fit, explained, rules):
-            return None, False
-        asked = replace(self, catalogue=seconds).given([first.refined])
-        try:
-            _, pair = asked.steps(first.fit, single)
-        except BrakechainError:
-            return None, False
-        if not second_effect.matters(pair, explained, rules):
-            whole = asked.joined(single, first, pair)
-            return whole or pair, whole is not None
-        starts = second_effect.starts_without(first, pair, single)
-        alone = decided(single.refits.begun_anew(starts), self.settings, single.base)
-        dispensable = alone.decision.verdict in second_effect.NAMING and not second_effect.remains(first, pair, rules)
-        return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
-
-    def joined(self, single, first, pair):
-        """The Diagnosis of the law ``first``, which these runs take as known, and the one that explains most beside it,
-        fitted as one set where a ``pair`` names none though both leave little: judged by what they explain together.
-        None where they are not named."""
-        second = second_effect.unnamed(single, pair, self.settings.rules)
-        if second is None:
-            return None
-        asked = replace(self, catalogue=pair.refits.refitter.catalogue)
-        try:
-            return asked.named_together(single, second.fit.latent, second.candidate, [first.refined])[0]
-        except BrakechainError:
-            return None
-
     def _tied_pair(self, single):
         """The first Diagnosis that names anything beside a significant effect taken as known; ``single`` where none
         does."""
@@ -373,7 +305,7 @@ class Asked:
                 why = f"whether what it leaves moves as other laws do could not be computed: {sentence_of(error)}"
             if not why:
                 break
-            told = self._objected(told, {first.candidate.name: why})
+            told = self.objected(told, {first.candidate.name: why})
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
         return told.remarked(*filter(None, (
@@ -381,17 +313,11 @@ class Asked:
             instead(_not_computed)(steady_tones.told)(told.null))))
 
 
-    def _objected(self, told, objected):
+    def objected(self, told, objected):
         """A Diagnosis ``told``, decided anew without laws ``objected`` to {name: why}."""
         weighing = told.weighing.objected(objected)
         decision = weighing.decided(several_laws.allowing(self.settings, told.laws, bool(told.nominal.effects)).rules)
         return replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
-
-
-def _start_of(fit, single, law, known):
-    """Latent values of a Fit in the order of the nominal model of ``single``, the laws ``known`` and one ``law``."""
-    names = [p.name for p in fit.hypothesis.parameters]
-    return fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
 
 
 def _not_computed(error, *_):

@@ -301,6 +301,7 @@ def test_pairs_follow_where_no_set_along_motions_is_named(monkeypatch, left, ver
     selection = Selection((), (), (), np.zeros(0), {}, frozenset({0, 1}), left)
     monkeypatch.setattr(procedure.several, "along_motions", lambda *_: SimpleNamespace(selected=lambda *_: selection))
     monkeypatch.setattr(Asked, "together", lambda self, single, selection: single)
-    monkeypatch.setattr(Asked, "pairs", lambda self, single, catalogue: (seconds.append(len(catalogue)), single)[1])
+    monkeypatch.setattr(procedure.pairs, "beside",
+                        lambda asked, single, catalogue: (seconds.append(len(catalogue)), single)[1])
     asked.along(single, object())
     assert seconds == [3] * (left > DEFAULTS.decision.along_motions) + [tried]

@@ -1,0 +1,99 @@
+"""Which two simple laws explain together what neither does alone: a race of pairs, begun and not fitted to their ends.
+
+Laws that explain much alone are often not the right ones: where two act, an elaborate one makes up for both. Beside
+each of the simple laws that matter, taken as it was fitted, the catalogue is screened once more, and the few most
+promising others begin their fits. The pair that comes down furthest within a few iterations is worth a full one.
+"""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from pipeline.contract.errors import instead
+from pipeline.inference.decision import several_laws
+from pipeline.inference.fitting.begins import begun_beside
+from pipeline.inference.fitting.calibration import Calibration
+from pipeline.inference.fitting.fit_state import Fit, linearised
+from pipeline.inference.fitting.refitted import advanced
+from pipeline.inference.fitting.refitting import Refitter
+from pipeline.inference.search.score_screen import screen_catalogue
+from pipeline.inference.search.selection import Combination, Selection
+
+#: laws beside which others are looked for, and others that begin beside each
+_FIRSTS, _SECONDS = 4, 4
+#: share of what explains most among the simple laws that a first one explains
+_MATTERS = 0.3
+#: share of what a law explains that a limit of it explains which takes its place
+_LIMIT = 0.7
+#: iterations of a pair that has begun
+_LAPS = 4
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The Hypotheses ``first`` and ``second`` and their Fit together, as far as the race went."""
+
+    first: object
+    second: object
+    fit: Fit
+
+    @property
+    def names(self):
+        return self.first.name, self.second.name
+
+    def selected(self, null, catalogue):
+        """Selection of both among a ``catalogue``; ``null``: Fit of the nominal model alone."""
+        names = [c.name for c in catalogue]
+        members, size = tuple(map(names.index, self.names)), len(null.latent)
+        middle = size + len(self.first.parameters)
+        values = {members[0]: self.fit.latent[size:middle], members[1]: self.fit.latent[middle:]}
+        tried = Combination(self.names, float(self.fit.weights.max() * self.fit.betters(null) / 2))
+        return Selection(members, (), (tried,), self.fit.latent[:size], values, frozenset(), 0.0)
+
+
+def best_pair(problem, budget, single, catalogue, settings, fan_out):
+    """The Pair of the ``catalogue`` that comes down furthest beside what the Diagnosis ``single`` has found; None where
+    none may leave as little as two laws may."""
+    simple = tuple(c for c in catalogue if not c.elaborate)
+    enough, best = several_laws.hoped(single.null, settings.rules), None
+    for first in _firsts(single, settings.rules):
+        found = _beside(problem, budget, single.null, simple, settings, fan_out, first)
+        best = min((pair for pair in (best, found) if pair), key=lambda pair: pair.fit.objective, default=None)
+        if best and best.fit.reaches_noise(settings.rules.decision.noise_uncertainty):
+            break
+    return best if best and best.fit.objective <= enough else None
+
+
+def _firsts(single, rules):
+    """The simple Weighed of a Diagnosis beside which others are worth a look, what explains most first; a limit of one
+    in its place where that explains about as much."""
+    gained = {w.candidate.name: w.fit.betters(single.null) for w in single.weighed}
+    simple = sorted((w for w in single.weighed if w.candidate.kind == "physics" and not w.candidate.elaborate
+                     and w.statistics.significant(rules.decision)), key=lambda w: -gained[w.candidate.name])
+    chosen = []
+    for each in simple:
+        explained = gained[each.candidate.name]
+        limits = [w for w in simple if w.candidate.name in each.candidate.extends
+                  and gained[w.candidate.name] >= _LIMIT * explained]
+        first = limits[0] if limits else each
+        if explained >= _MATTERS * gained[simple[0].candidate.name] and first not in chosen:
+            chosen.append(first)
+    return chosen[:_FIRSTS]
+
+
+@instead(lambda error, *_: None)
+def _beside(problem, budget, null, catalogue, settings, fan_out, first):
+    """The Pair of the Weighed ``first`` and that of a ``catalogue`` which comes down furthest beside it, or None."""
+    known = first.refined
+    given, others = problem.given(known), tuple(c for c in catalogue if not c.excludes(known))
+    base = linearised(given, null.noises, given.nominal, first.fit.latent, null.runs)
+    screening = screen_catalogue(Calibration(given, budget, base), others, settings, fan_out, True)
+    refitter, start = Refitter.about(screening.calibration, others, settings, fan_out), screening.screen.start
+    begin = partial(begun_beside, given, base, refitter.anchor, refitter.ahead, settings.starts)
+    chosen = screening.promising[:_SECONDS]
+    begun = {i: fit for i, (fit, _) in zip(chosen, fan_out(begin, [(others[i], start[i]) for i in chosen]), strict=True)
+             if fit is not None}
+    fits = fan_out(partial(advanced, given, np.inf, iterations=_LAPS), list(begun.values()))
+    pairs = [Pair(known, others[i], fit) for i, fit in zip(begun, fits, strict=True)]
+    return min(pairs, key=lambda pair: pair.fit.objective, default=None)
