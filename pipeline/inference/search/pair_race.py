@@ -57,7 +57,7 @@ def best_pair(problem, budget, single, catalogue, settings, fan_out):
     none may leave as little as two laws may."""
     simple = tuple(c for c in catalogue if not c.elaborate)
     enough, best = several_laws.hoped(single.null, settings.rules), None
-    for first in _firsts(single, settings.rules):
+    for first in firsts(single, settings.rules):
         found = _beside(problem, budget, single.null, simple, settings, fan_out, first)
         best = min((pair for pair in (best, found) if pair), key=lambda pair: pair.fit.objective, default=None)
         if best and best.fit.reaches_noise(settings.rules.decision.noise_uncertainty):
@@ -65,7 +65,7 @@ def best_pair(problem, budget, single, catalogue, settings, fan_out):
     return best if best and best.fit.objective <= enough else None
 
 
-def _firsts(single, rules):
+def firsts(single, rules):
     """The simple Weighed of a Diagnosis beside which others are worth a look, what explains most first; a limit of one
     in its place where that explains about as much."""
     gained = {w.candidate.name: w.fit.betters(single.null) for w in single.weighed}

@@ -1,0 +1,67 @@
+"""The race of pairs: two laws are found that neither alone explains, nothing where no two simple laws do."""
+
+from dataclasses import replace
+from math import copysign, sin, tanh
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from pipeline.inference.diagnosis import Settings
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.problem import Hypothesis
+from pipeline.inference.procedure import Asked
+from pipeline.inference.rules import DEFAULTS
+from pipeline.inference.search.pair_race import best_pair, firsts
+from tests.inference.oscillator import CATALOGUE, bench
+
+
+def raced(extra, noise=0.1, catalogue=CATALOGUE):
+    """(Diagnosis by one law, Pair) of the toy bench with an ``extra`` force."""
+    problem, settings = bench(5, noise, stiffness=380.0, extra=extra), Settings()
+    noises = budget(problem)
+    _, single = Asked(problem, noises, catalogue, settings, map).steps()
+    return single, best_pair(problem, noises, single, catalogue, settings, map)
+
+
+@pytest.mark.parametrize("extra, names", [
+    (lambda t, x, v: 1.5e4 * x**3 + 1.5 * tanh(v / 0.005), ("cubic", "coulomb")),
+    (lambda t, x, v: 1.5e4 * x**3 + 3.0 * v * abs(v), ("cubic", "air"))])
+def test_two_laws_neither_of_which_explains_enough_win_and_begin_near_their_values(extra, names):
+    single, pair = raced(extra)
+    assert single.decision.verdict == "unknown" and pair.names == names
+    assert pair.fit.objective < 1.1 * pair.fit.counts.sum()
+    selection = pair.selected(single.null, CATALOGUE)
+    order = [[c.name for c in CATALOGUE].index(name) for name in names]
+    assert list(selection.members) == order and not selection.judged
+    np.testing.assert_array_equal(selection.start(selection.members), pair.fit.latent)
+    assert pair.fit.values["cubic_stiffness"] == pytest.approx(1.5e4, rel=0.1)
+
+
+@pytest.mark.parametrize("extra, noise", [
+    (lambda t, x, v: 25.0 * sin(9.0 * t) * x, 0.1),
+    (lambda t, x, v: 300.0 * max(0.0, abs(x) - 0.015) * copysign(1.0, x), 0.01)])
+def test_no_pair_wins_where_no_two_laws_explain_enough(extra, noise):
+    single, pair = raced(extra, noise)
+    assert single.decision.verdict == "unknown" and pair is None
+
+
+def test_elaborate_laws_do_not_take_part():
+    catalogue = tuple(replace(c, elaborate=c.name == "coulomb") for c in CATALOGUE)
+    _, pair = raced(lambda t, x, v: 1.5e4 * x**3 + 1.5 * tanh(v / 0.005), catalogue=catalogue)
+    assert pair is None or "coulomb" not in pair.names
+
+
+def weighed(name, gain, **more):
+    return SimpleNamespace(candidate=Hypothesis(name, ((name, "mount"),), **more),
+                           fit=SimpleNamespace(betters=lambda null: gain),
+                           statistics=SimpleNamespace(significant=lambda rules: gain > 1))
+
+
+def test_first_come_simple_laws_and_limits_that_explain_about_as_much():
+    single = SimpleNamespace(null=None, weighed=[
+        weighed("lugre", 120.0, elaborate=True, extends=("dahl",)), weighed("dahl", 100.0, extends=("coulomb",)),
+        weighed("gain", 95.0, kind="sensor"), weighed("coulomb", 90.0), weighed("jenkins", 200.0, extends=("coulomb",)),
+        weighed("cubic", 80.0), weighed("gap", 40.0), weighed("air", 0.5)])
+    assert [w.candidate.name for w in firsts(single, DEFAULTS)] == ["jenkins", "coulomb", "cubic"]
+    assert firsts(SimpleNamespace(null=None, weighed=[]), DEFAULTS) == []
