@@ -31,8 +31,11 @@ _CENTRAL, _LIGHT, _KEPT = 8, 1e-12, 0.1
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
 _HOPE = 10.0
-#: iterations, and the share of the objective that is left after them where a fit crawls
+#: iterations, and the share of the objective that is left after them where a fit of features crawls
 _CRAWLING = ((5, 0.97), (8, 0.7))
+#: noise powers from which on a fit of samples crawls, iterations, and the share of what noise is not that is left after
+#: them
+_ABOVE, _CREEPING, _LEFT = 1.2, 10, 0.98
 #: iterations over which a fit is judged that has to come down to what others reach
 _LATE = 4
 #: share of the objective that a step of a rough fit must gain for another to follow
@@ -170,10 +173,14 @@ def _tolerance(state, scale, patient):
 
 
 def _crawls(state, objectives):
-    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
-    return (state.unordered and state.far
-            and any(len(objectives) > n and objectives[-1] > fraction * objectives[-1 - n]
-                    for n, fraction in _CRAWLING))
+    """Whether what is far off has stayed so, features or samples: its hypothesis has no use for more iterations."""
+    def stayed(count, share, noise=0.0):
+        return len(objectives) > count and objectives[-1] - noise > share * (objectives[-1 - count] - noise)
+
+    if state.unordered:
+        return state.far and any(stayed(count, share) for count, share in _CRAWLING)
+    noise = state.counts.sum()
+    return objectives[-1] > _ABOVE * noise and stayed(_CREEPING, _LEFT, noise)
 
 
 def _lags(objectives, enough):

@@ -178,6 +178,8 @@ def _band(samples, rate, low, high):
     scale = np.sqrt(np.mean(abs(signal) ** 2, axis=1))
     seen = scale > 0
     root = _pencil(signal[seen] / scale[seen, None], interval)
+    if not len(root):
+        return Poles(root, np.empty(0), np.empty((0, len(samples)), complex))
     for _ in range(2):                          # once more, weighted with the noise that the first round left
         root, amplitude, left, std = _refined(signal[seen] / scale[seen, None], interval, root)
         scale[seen] *= np.maximum(left, 1e-12)

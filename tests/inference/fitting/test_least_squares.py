@@ -1,5 +1,7 @@
 """Least squares under priors: closed forms of linear problems, a nonlinear one, bounds, jumps, refusals."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -89,6 +91,14 @@ def test_features_that_stay_far_off_crawl():
     assert not _crawls(state, list(state.objective * np.geomspace(2, 1, 9)))
     near = linearised(whole, noises, whole.nominal, np.array([1.4]), whole.runs)
     assert not _crawls(near, [near.objective] * 9)
+
+
+def test_samples_far_above_the_noise_that_come_no_nearer_crawl():
+    state = SimpleNamespace(unordered=False, counts=np.array([60, 40]))
+    assert _crawls(state, [300.0] * 11) and not _crawls(state, [300.0] * 10)
+    slowly, faster = (100 + 200 * share ** -np.arange(11.0)[::-1] for share in (0.999, 0.997))
+    assert _crawls(state, list(slowly)) and not _crawls(state, list(faster))
+    assert not _crawls(state, [115.0] * 20), "near the noise a fit goes on to its end"
 
 
 def test_where_a_small_difference_hits_a_jump_a_wider_one_shows_the_way():

@@ -127,6 +127,12 @@ def test_distortion_that_begins_faint_is_no_pole():
     assert len(found.root) == 1 and abs(found.root[0] - (20 + 2j * np.pi * 400)) < 0.1
 
 
+@pytest.mark.parametrize("samples", [np.zeros((1, 4000)), np.eye(1, 4000)], ids=["dead", "one spike"])
+def test_records_without_a_motion_have_no_poles(samples):
+    found = poles(samples, 1000.0, 50.0, 400.0)
+    assert not len(found.root) and not len(found.std) and found.shape.shape == (0, 1)
+
+
 @pytest.mark.parametrize("samples, low, high", [(4096, 200.0, 6000.0), (4096, 500.0, 200.0), (64, 200.0, 900.0)])
 def test_impossible_records_are_refused(samples, low, high):
     with pytest.raises(ConfigError):
