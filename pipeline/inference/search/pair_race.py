@@ -5,7 +5,7 @@ each of the simple laws that matter, taken as it was fitted, the catalogue is sc
 promising others begin their fits. The pair that comes down furthest within a few iterations is worth a full one.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -26,8 +26,8 @@ _FIRSTS, _SECONDS = 4, 4
 _MATTERS = 0.3
 #: share of what a law explains that a limit of it explains which takes its place
 _LIMIT = 0.7
-#: iterations of a pair that has begun
-_LAPS = 4
+#: iterations of a pair that has begun; those that go on, and their iterations
+_LAPS, _LAST, _FURTHER = 4, 3, 20
 
 
 @dataclass(frozen=True)
@@ -56,18 +56,21 @@ def best_pair(problem, budget, single, catalogue, settings, fan_out):
     """The Pair of the ``catalogue`` that comes down furthest beside what the Diagnosis ``single`` has found; None where
     none may leave as little as two laws may."""
     simple = tuple(c for c in catalogue if not c.elaborate)
-    enough, best = several_laws.hoped(single.null, settings.rules), None
+    enough, pairs = several_laws.hoped(single.null, settings.rules), []
     for first in firsts(single, settings.rules):
         found = _beside(problem, budget, single.null, simple, settings, fan_out, first)
-        best = min((pair for pair in (best, found) if pair), key=lambda pair: pair.fit.objective, default=None)
-        if best and best.fit.reaches_noise(settings.rules.decision.noise_uncertainty):
-            break
-    return best if best and best.fit.objective <= enough else None
+        pairs = sorted([*pairs, *found], key=lambda pair: pair.fit.objective)
+        if found and pairs[0].fit.reaches_noise(settings.rules.decision.noise_uncertainty):
+            return pairs[0]
+    best = pairs[:_LAST]
+    fits = fan_out(partial(advanced, problem, enough, iterations=_FURTHER), [pair.fit for pair in best])
+    ended = [replace(pair, fit=fit) for pair, fit in zip(best, fits, strict=True) if fit.objective <= enough]
+    return min(ended, key=lambda pair: pair.fit.objective, default=None)
 
 
 def firsts(single, rules):
-    """The simple Weighed of a Diagnosis beside which others are worth a look, what explains most first; a limit of one
-    in its place where that explains about as much."""
+    """The simple Weighed of a Diagnosis beside which others are worth a look, what explains most first, each law at its
+    best place before any at another; a limit of one in its place where that explains about as much."""
     gained = {w.candidate.name: w.fit.betters(single.null) for w in single.weighed}
     simple = sorted((w for w in single.weighed if w.candidate.kind == "physics" and not w.candidate.elaborate
                      and w.statistics.significant(rules.decision)), key=lambda w: -gained[w.candidate.name])
@@ -79,12 +82,13 @@ def firsts(single, rules):
         first = limits[0] if limits else each
         if explained >= _MATTERS * gained[simple[0].candidate.name] and first not in chosen:
             chosen.append(first)
-    return chosen[:_FIRSTS]
+    laws = [w.candidate.effects[0][0] for w in chosen]
+    return [chosen[k] for k in sorted(range(len(chosen)), key=lambda k: laws[:k].count(laws[k]))[:_FIRSTS]]
 
 
-@instead(lambda error, *_: None)
+@instead(lambda error, *_: [])
 def _beside(problem, budget, null, catalogue, settings, fan_out, first):
-    """The Pair of the Weighed ``first`` and that of a ``catalogue`` which comes down furthest beside it, or None."""
+    """[Pair] of the Weighed ``first`` and those of a ``catalogue`` that promise most beside it."""
     known = first.refined
     given, others = problem.given(known), tuple(c for c in catalogue if not c.excludes(known))
     base = linearised(given, null.noises, given.nominal, first.fit.latent, null.runs)
@@ -95,5 +99,4 @@ def _beside(problem, budget, null, catalogue, settings, fan_out, first):
     begun = {i: fit for i, (fit, _) in zip(chosen, fan_out(begin, [(others[i], start[i]) for i in chosen]), strict=True)
              if fit is not None}
     fits = fan_out(partial(advanced, given, np.inf, iterations=_LAPS), list(begun.values()))
-    pairs = [Pair(known, others[i], fit) for i, fit in zip(begun, fits, strict=True)]
-    return min(pairs, key=lambda pair: pair.fit.objective, default=None)
+    return [Pair(known, others[i], fit) for i, fit in zip(begun, fits, strict=True)]

@@ -52,8 +52,8 @@ def test_elaborate_laws_do_not_take_part():
     assert pair is None or "coulomb" not in pair.names
 
 
-def weighed(name, gain, **more):
-    return SimpleNamespace(candidate=Hypothesis(name, ((name, "mount"),), **more),
+def weighed(name, gain, law="", **more):
+    return SimpleNamespace(candidate=Hypothesis(name, ((law or name, "mount"),), **more),
                            fit=SimpleNamespace(betters=lambda null: gain),
                            statistics=SimpleNamespace(significant=lambda rules: gain > 1))
 
@@ -65,3 +65,10 @@ def test_first_come_simple_laws_and_limits_that_explain_about_as_much():
         weighed("cubic", 80.0), weighed("gap", 40.0), weighed("air", 0.5)])
     assert [w.candidate.name for w in firsts(single, DEFAULTS)] == ["jenkins", "coulomb", "cubic"]
     assert firsts(SimpleNamespace(null=None, weighed=[]), DEFAULTS) == []
+
+
+def test_each_law_comes_at_its_best_place_before_any_at_another():
+    single = SimpleNamespace(null=None, weighed=[
+        weighed("gap at wall", 100.0, "gap"), weighed("gap at arm", 90.0, "gap"), weighed("gap at foot", 80.0, "gap"),
+        weighed("air", 70.0), weighed("cubic at foot", 60.0, "cubic"), weighed("cubic at arm", 50.0, "cubic")])
+    assert [w.candidate.name for w in firsts(single, DEFAULTS)] == ["gap at wall", "air", "cubic at foot", "gap at arm"]
