@@ -2,7 +2,8 @@
 
 Laws that explain much alone are often not the right ones: where two act, an elaborate one makes up for both. Beside
 each of the simple laws that matter, taken as it was fitted, the catalogue is screened once more, and the few most
-promising others begin their fits. The pair that comes down furthest within a few iterations is worth a full one.
+promising others begin their fits. Of the pairs that have come down furthest the best go on; one that may leave as
+little as two laws may is worth a full fit.
 """
 
 from dataclasses import dataclass, replace
