@@ -7,7 +7,7 @@ from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.experiment_design.next_run import feasible
-from pipeline.diagnosis.problem import DiagnosisProblem, nominal
+from pipeline.diagnosis.problem import DiagnosisProblem, nominal, parameter_name
 from pipeline.diagnosis.settings import parameter, procedure
 from pipeline.diagnosis.signals.added_starts import with_added_starts
 from pipeline.diagnosis.signals.forward_model import (
@@ -27,6 +27,7 @@ from pipeline.diagnosis.signals.usable_runs import doubts
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.step_error import longest
+from pipeline.inference.priors import LogNormal, Normal, Parameter
 from pipeline.inference.problem import Problem
 
 
@@ -43,7 +44,7 @@ def forced_problem(bench, recorded, settings, remarks=()):
     training = [recorded[o.name] for o in observations if not o.held_out]
     planned = feasible(bench, settings.next, training[0]) if training else ()
     forward = Simulated(bench, runs | {f.run.name: f.run for f in planned}, {f.run.name: f.altered for f in planned})
-    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
+    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings, recorded)))
     for run in planned:     # what the model cannot do is refused before anything is fitted
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
     refused = []
@@ -73,12 +74,39 @@ def stated_noise(settings, units):
     return {c: to_si(v, units[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
 
 
-def nominal_parameters(bench, settings):
-    """Parameters that the case says may be wrong, about the values of the bench."""
+def nominal_parameters(bench, settings, runs=()):
+    """Parameters that the case says may be wrong, about the values of the bench, and how they differ between ``runs``
+    (name, ...). ConfigError for names that there are not, and for differences where runs are not compared one by one.
+    """
     units = corrections.known(bench)
     check_names("parameters", settings.parameters, units)
-    return [parameter(name, units[name], corrections.nominal(bench, name), prior, f"diagnosis.parameters.{name}")
-            for name, prior in settings.parameters.items()]
+    shared = [parameter(name, units[name], corrections.nominal(bench, name), prior, f"diagnosis.parameters.{name}")
+              for name, prior in settings.parameters.items()]
+    return shared + [_of_run(p, run, size) for p in shared
+                     if (size := _between_runs(p, settings.parameters[p.name], runs)) for run in runs]
+
+
+def _between_runs(shared, given, runs):
+    """Standard deviation by which a Parameter differs between ``runs`` as the section ``given`` says, None or 0: not at
+    all."""
+    where, stated = f"diagnosis.parameters.{shared.name}.between_runs", given.between_runs
+    if stated is None:
+        return None
+    if not runs:
+        raise ConfigError(where, "none, as no samples of runs are compared here", str(stated), "leave it out")
+    relative = isinstance(shared.prior, LogNormal)
+    size = to_si(stated, "1" if relative else shared.unit, where)
+    if size < 0 or (relative and size > 1):
+        raise ConfigError(where, "a share from 0 to 1" if relative else "0 or more", str(stated))
+    return size
+
+
+def _of_run(shared, run, size):
+    """Parameter of the value that a ``shared`` one has in a run, which differs by this ``size``."""
+    name = parameter_name("between_runs", run, shared.name)
+    if isinstance(shared.prior, LogNormal):
+        return Parameter(name, "1", 1.0, LogNormal(1.0, size), run=run, of=shared.name)
+    return Parameter(name, shared.unit, 0.0, Normal(0.0, size), run=run, of=shared.name)
 
 
 def chosen(settings):

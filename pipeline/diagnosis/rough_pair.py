@@ -121,6 +121,10 @@ def _given(section):
 def _nominal_parameters(section, settings):
     check_names("parameters", settings.parameters, UNIT_OF)
     given = _given(section)
+    for name, prior in settings.parameters.items():
+        if prior.between_runs is not None:
+            raise ConfigError(f"diagnosis.parameters.{name}.between_runs", "none, as no samples of runs are compared"
+                              " here", str(prior.between_runs), "leave it out")
     return [parameter(name, UNIT_OF[name], given[name], prior, f"diagnosis.parameters.{name}")
             for name, prior in settings.parameters.items()]
 

@@ -22,6 +22,9 @@ class Prior(Section):
     std: str | float | None = option(None, "normal: standard deviation; half_normal: root mean square")
     low: str | float | None = option(None, "uniform: lower end")
     high: str | float | None = option(None, "uniform: upper end")
+    between_runs: str | float | None = option(None, "standard deviation by which the value differs from run to run, as"
+                                                    " after reassembly or with temperature: log_normal: relative, 0.02"
+                                                    " = 2 %; else with its unit; none = it is the same in all")
 
 
 class NoiseOf(Section):

@@ -206,7 +206,8 @@ class Parameter:
     None for a nominal parameter or one that only shapes an effect. Both in ``unit``, SI. ``run``: name of the run whose
     prediction alone it changes, as its start state does; empty: it may change all. ``threshold``: whether it says from
     where on an effect acts, as a gap does, so that slopes at one value say little of others. ``stated``: whether the
-    case states its prior.
+    case states its prior. ``of``: name of the parameter of all runs from whose value that of its own run differs by it:
+    by this factor where it cannot be negative, else by as much.
     """
 
     name: str
@@ -218,6 +219,7 @@ class Parameter:
     threshold: bool = False
     within: tuple = (-np.inf, np.inf)
     stated: bool = False
+    of: str = ""
 
     def __post_init__(self):
         low, high = self.prior.support

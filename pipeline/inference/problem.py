@@ -94,6 +94,15 @@ class Hypothesis:
         """{name: value} at latent coordinates (k,)."""
         return {p.name: float(p.prior.value(u)) for p, u in zip(self.parameters, latent, strict=True)}
 
+    def in_run(self, values, run):
+        """``values`` {name: value} as they are in the run of this name: those that differ between runs are its own."""
+        own = {}
+        for p in self.parameters:
+            if p.of and p.run == run:
+                factor = p.prior.support[0] >= 0
+                own[p.of] = values[p.of] * values[p.name] if factor else values[p.of] + values[p.name]
+        return values | own
+
     @property
     def shared(self):
         """True (k,) for parameters that may change every run, False for those of one run alone."""

@@ -15,7 +15,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, instead, sentence_of
 from pipeline.inference import model_error, pairs, several
-from pipeline.inference.decision import other_form, second_effect, several_laws, steady_tones
+from pipeline.inference.decision import between_runs, other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
@@ -310,8 +310,8 @@ class Asked:
             return told
         return told.remarked(*filter(None, (
             instead(_not_computed)(other_form.of_noise)(told, settings.seed),
+            instead(_not_computed)(between_runs.told)(self.problem, told.null, rules.noise_uncertainty),
             instead(_not_computed)(steady_tones.told)(told.null))))
-
 
     def objected(self, told, objected):
         """A Diagnosis ``told``, decided anew without laws ``objected`` to {name: why}."""
@@ -321,4 +321,4 @@ class Asked:
 
 
 def _not_computed(error, *_):
-    return f"whether noise or a tone may be what is left could not be computed: {sentence_of(error)}"
+    return f"whether noise, a tone or runs that differ may be what is left could not be computed: {sentence_of(error)}"

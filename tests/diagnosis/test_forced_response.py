@@ -10,14 +10,14 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference.priors import HalfNormal
-from tests.diagnosis.small_rig import laid_out, model, recording
+from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}}, "held_out": ["level_4"],
          "noise": {"std": {"x": "0.2 mm"}}}
 
 
-def asked(**more):
-    return forced_problem(benches.built(model(), laid_out()), recorded(recording(), laid_out()),
+def asked(shown=None, **more):
+    return forced_problem(benches.built(model(), laid_out()), recorded(shown or recording(), laid_out()),
                     fill(Settings, {**ASKED, **more}, "diagnosis"))
 
 
@@ -56,7 +56,33 @@ def test_runs_that_could_be_next_come_with_their_noise():
     np.testing.assert_allclose(twice, 2 * once, rtol=1e-9, atol=1e-12)
 
 
+def reassembled(hidden=None):
+    """Recording of the rig whose mount was another one in every run, within 1 %."""
+    whole = recording(hidden)
+    for name, stiffness in zip(whole.runs, (400, 404, 397, 402), strict=True):
+        other = recording(hidden, corrections={"joints.mount.stiffness": f"{stiffness} N/m"})
+        whole.runs[name] = other.runs[name]
+    return whole
+
+
+def test_values_that_differ_between_runs_hide_nothing_and_are_no_missing_effect():
+    """Without them the same records are unknown: no single stiffness predicts all runs."""
+    more = {"parameters": {"joints.mount.stiffness": {"spread": 0.1, "between_runs": 0.01},
+                           "joints.mount.damping": {"spread": 0.3}},
+            "effects": ["cubic_stiffness", "coulomb"], "solver": False}
+    same = asked(reassembled(), **more).solved()
+    assert same.decision.verdict == "consistent"
+    own = same.completed.values
+    assert [own[f"between_runs@level_{k}.joints.mount.stiffness"] * own["joints.mount.stiffness"]
+            for k in (1, 2, 3)] == pytest.approx([400, 404, 397], abs=0.3)
+    told = asked(reassembled(HIDDEN), **more).solved()
+    assert told.decision.verdict == "missing" and [c.name for c in told.decision.named] == ["cubic_stiffness at mount"]
+    assert told.named[0].fit.values["cubic_stiffness@mount.coefficient"] == pytest.approx(15000, rel=0.01)
+
+
 @pytest.mark.parametrize("more, said", [
+    ({"parameters": {"joints.mount.stiffness": {"between_runs": "1 kg"}}}, "stiffness.between_runs"),
+    ({"parameters": {"joints.mount.stiffness": {"between_runs": 2.0}}}, "stiffness.between_runs.*share"),
     ({"priors": {"compliant_arm.stiffness": {}}}, "diagnosis.priors"),
     ({"next": {"temperature": ["20 K"]}}, "diagnosis.next.temperature"),
     ({"held_out": ["level_9"]}, "diagnosis.held_out"), ({"effects": ["magic"]}, "diagnosis.effects"),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.priors import LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem, operating_points
 from tests.inference.oscillator import CATALOGUE, NOMINAL, predict
 
@@ -67,3 +67,14 @@ def test_a_problem_can_be_sent_to_other_processes():
 def test_bad_input_is_refused(make, told):
     with pytest.raises(ConfigError, match=told):
         make()
+
+
+def test_what_is_of_one_run_changes_the_value_of_all_there():
+    """By a factor where it cannot be negative, else by as much; other runs keep the value of all."""
+    nominal = Hypothesis("nominal", (), (
+        Parameter("stiffness", "N/m", 400.0, LogNormal(400.0, 0.1)), Parameter("offset", "N", 1.0, Normal(1.0, 1.0)),
+        Parameter("factor", "1", 1.0, LogNormal(1.0, 0.02), run="warm", of="stiffness"),
+        Parameter("shift", "N", 0.0, Normal(0.0, 0.5), run="warm", of="offset")))
+    values = {"stiffness": 400.0, "offset": 1.0, "factor": 0.98, "shift": -0.25}
+    assert nominal.in_run(values, "warm") == values | {"stiffness": 392.0, "offset": 0.75}
+    assert nominal.in_run(values, "cold") == values

@@ -243,7 +243,7 @@ def _parameters(completed, std, table):
 def _starts(problem, completed, std):
     """Fields of the fitted start states of the runs that were fitted: parameters of these runs alone."""
     values, fitted = completed.values, {run.name for run in problem.training}
-    rows = [(p.run, split_name(p.name)[2], p.unit, values[p.name], std[p.name])
+    rows = [(p.run, f"{p.of}, difference" if p.of else split_name(p.name)[2], p.unit, values[p.name], std[p.name])
             for p in completed.hypothesis.parameters if p.run in fitted]
     return {key: [row[k] for row in rows] for k, key in enumerate(
         ("start_run", "start_quantity", "start_unit", "start_value", "start_std"))}

@@ -171,7 +171,7 @@ def whitened(problem, noises, hypothesis, latent, runs):
         if spent():
             return None, TimeSpentError()
         try:
-            predicted = np.asarray(problem.predict(hypothesis, values, run), float)
+            predicted = np.asarray(problem.predict(hypothesis, hypothesis.in_run(values, run.name), run), float)
         except BrakechainError as error:
             return None, error
         except Exception as error:      # what one hypothesis cannot predict says nothing of others

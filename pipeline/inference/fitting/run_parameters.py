@@ -4,7 +4,7 @@ A run that was held out has a start too, which no other run tells. It is fitted 
 values of the model that is judged, and what is judged is the rest of the run.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ class Held:
     values: dict
 
     def predict(self, _, values, run):
-        return self.whole.predict(self.hypothesis, self.values | values, run)
+        return self.whole.predict(self.hypothesis, self.hypothesis.in_run(self.values | values, run.name), run)
 
 
 def first_part(problem, noise, run, share):
@@ -58,7 +58,8 @@ def with_own_parameters(problem, noises, hypothesis, latent, runs, share=1.0):
         if not members:
             continue
         end = first_part(problem, noise, run, share)
-        alone = Hypothesis(f"own parameters of {run.name}", (), tuple(hypothesis.parameters[k] for k in members))
+        alone = Hypothesis(f"own parameters of {run.name}", (), tuple(
+            replace(hypothesis.parameters[k], of="") for k in members))
         latent[members] = fit(Held(problem, hypothesis, values), (noise.until(end),), alone, latent[members],
                               (run.until(end),)).latent
     return latent

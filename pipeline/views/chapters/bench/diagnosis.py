@@ -373,11 +373,12 @@ def _parameters(product):
 
 
 def _starts(product):
-    """Fitted start states, by run."""
+    """What is of single runs alone, as their start states."""
     rows = tuple((str(run), str(what), _with_error(value, std, str(unit))) for run, what, value, std, unit in zip(
         product.start_run, product.start_quantity, product.start_value, product.start_std, product.start_unit,
         strict=True))
-    return Table(("run", "at its first sample", "fitted"), rows, "Start states", (2,), folded=True) if rows else None
+    return Table(("run", "its start, or difference", "fitted"), rows, "Start states and differences of single runs",
+                 (2,), folded=True) if rows else None
 
 
 def _thresholds(product):
