@@ -75,6 +75,14 @@ _FILES = (
 CATALOGUE = tuple(import_module(f"pipeline.effects.{name}").EFFECT for name in _FILES)
 
 
+def family(names, places):
+    """What effects of these ``names`` at these ``places`` are called together; '' of one, of several families, and of
+    several places."""
+    families = {e.name: e.family for e in CATALOGUE}
+    shared = {families.get(name, "") for name in names}
+    return shared.pop() if len(names) > 1 and len(shared) == len(set(places)) == 1 else ""
+
+
 def named(name):
     """The effect of this name; KeyError where there is none."""
     return {e.name: e for e in CATALOGUE}[name]

@@ -29,7 +29,8 @@ class Effect:
     every run must state; ``micro``: whether it also acts on a Rubbing (effects located at the asperities act there
     only); ``small``: whether it enters the model linearised about steady sliding, and so the complex modes;
     ``elaborate``: whether it has so many values, or is so costly, that it is weighed only where simpler effects leave
-    something; ``extends``: names of effects that are limits of it, beside which it counts by what it adds.
+    something; ``extends``: names of effects that are limits of it, beside which it counts by what it adds; ``family``:
+    what such laws of a joint are called together, where it may be known and the form of the law not.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Effect:
     small: bool = True
     elaborate: bool = False
     extends: tuple = ()
+    family: str = ""
 
     def locations(self, model):
         """Names of the locations of a Bench or a Rubbing where the effect can act."""

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import BrakechainError, ConfigError
-from pipeline.effects import CATALOGUE, named
+from pipeline.effects import CATALOGUE, family, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
 from pipeline.effects.typical import ASPERITIES, CHANNEL, CHANNEL_PAIR, Typical, typical
 from pipeline.physics.time_stepping.simulate import Start
@@ -204,3 +204,18 @@ def test_what_an_effect_extends_is_in_the_catalogue_at_the_same_kind_of_location
     known = {e.name: e.location for e in CATALOGUE}
     extending = [e for e in CATALOGUE if e.extends]
     assert extending and all(known[name] == e.location and name != e.name for e in extending for name in e.extends)
+
+
+@pytest.mark.parametrize("names, places, told", [
+    (["coulomb", "dahl"], ["guide", "guide"], "dry friction"), (["coulomb"], ["guide"], ""),
+    (["coulomb", "dahl"], ["guide", "arm"], ""), (["coulomb", "cubic_stiffness"], ["guide", "guide"], ""),
+    (["runout", "thickness_variation"], ["disc", "disc"], ""), (["coulomb + dahl", "dahl"], ["guide", "guide"], ""),
+    ([], [], "")])
+def test_laws_of_one_family_at_one_place_are_called_by_it(names, places, told):
+    assert family(names, places) == told
+
+
+def test_what_extends_a_law_is_of_its_family():
+    family_of = {e.name: e.family for e in CATALOGUE}
+    both = [(e, name) for e in CATALOGUE for name in e.extends if e.family and family_of[name]]
+    assert both and all(e.family == family_of[name] or e.name == "stribeck_joint" for e, name in both)

@@ -76,69 +76,6 @@ def test_the_verdict_is_right(truth, verdict, named, noise):
         assert abs(best.fit.values[true[0]] - true[1]) < 4 * best.fit.spread(told.weights)[true[0]]
 
 
-def test_two_effects_are_found_one_after_the_other():
-    problem = bench(5, 0.1, stiffness=380.0, extra=both)
-    told = diagnose(problem, budget(problem), CATALOGUE)
-    effects = {effect for effect, _ in told.nominal.effects} | {c.name for c in told.decision.named}
-    assert told.decision.verdict == "missing" and effects == {"cubic", "coulomb"}
-    assert told.base.weighed[0].candidate.name == "cubic", "friction is a small share of the excess"
-
-
-def test_the_first_law_of_a_pair_is_told_from_others_beside_the_second(monkeypatch):
-    """Beside quadratic stiffness a slow drive did nearly what the pad that acted did; it had led alone."""
-    problem, asked = bench(5, 0.1, stiffness=380.0, extra=both), []
-
-    def untold(self, single, start, law, known):
-        asked.append((law.name, *(k.name for k in known)))
-        reasons = "these runs cannot tell cubic, quintic apart",
-        return SimpleNamespace(decision=SimpleNamespace(verdict="tie", named=[law], reasons=reasons))
-
-    monkeypatch.setattr(Asked, "weighed_together", untold)
-    told = diagnose(problem, budget(problem), CATALOGUE)
-    assert asked == [("cubic", "coulomb")] and told.decision.verdict == "unknown" and not told.named
-    assert any("cannot tell cubic, quintic apart" in reason for reason in told.decision.reasons)
-
-
-def test_a_second_effect_within_the_error_of_the_law_of_the_first_is_not_named():
-    problem = bench(5, 0.1, stiffness=380.0, extra=both)
-    asked = replace(Settings(), rules=changed("decision", second_share=0.2, second_at_noise=0.2))
-    told = diagnose(problem, budget(problem), CATALOGUE, asked)
-    assert told.base is None and [c.name for c in told.decision.named] in ([], ["cubic"])
-
-
-def test_a_smaller_second_effect_is_named_where_both_reach_the_noise():
-    problem = bench(5, 0.1, stiffness=380.0, extra=both)
-    asked = replace(Settings(), rules=changed("decision", second_share=0.2))
-    told = diagnose(problem, budget(problem), CATALOGUE, asked)
-    assert told.base is not None and told.decision.verdict == "missing"
-    assert not told.named[0].statistics.held_out_left
-
-
-def odd_values(amount):
-    """A linear problem of a strong effect_1, and an effect_2 of this ``amount`` that 7 deviations of a value mimic."""
-    whole, noise, catalogue, tables = linear.problem((1, 1, 1), runs=4, held_out=1)
-    runs = []
-    for run in whole.runs:
-        table = tables[run.name]
-        table["effect_2_0"] = 7 * table["nominal_0"] + 0.3 * table["effect_2_0"]
-        runs.append(replace(run, samples=run.samples + 3 * table["effect_1_0"] + amount * table["effect_2_0"]))
-    return replace(whole, runs=tuple(runs)), noise, catalogue
-
-
-def test_a_second_effect_that_gives_values_back_to_their_priors_is_named():
-    asked = replace(Settings(), rules=changed("decision", second_share=0.9, second_at_noise=0.9))
-    told = diagnose(*odd_values(1.0), asked)
-    assert told.decision.verdict == "missing" and told.base is not None
-    assert {c.name for c in told.decision.named} == {"effect_2"} and told.nominal.effects[0][0] == "effect_1"
-
-
-def test_values_within_their_priors_ask_for_no_second_effect():
-    asked = replace(Settings(), rules=changed("decision", second_share=0.9, second_at_noise=0.9))
-    told = diagnose(*odd_values(0.4), asked)
-    assert told.decision.verdict == "missing" and told.base is None
-    assert [c.name for c in told.decision.named] == ["effect_1"]
-
-
 def test_a_solver_that_lags_is_told_from_missing_physics():
     problem = replace(bench(5, stiffness=420.0), predict=predict_with_lag)
     told = diagnose(problem, budget(problem), (*CATALOGUE, SOLVER))

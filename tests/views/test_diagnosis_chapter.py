@@ -114,6 +114,16 @@ def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_c
     assert "the same at 0.5 and 2 times the noise" in dict(note(diagnosis()))["How certain"]
 
 
+def test_laws_of_one_family_at_one_place_are_called_by_it():
+    one = {"effect": ["", "coulomb", "dahl", "sensor_gain"], "place": ["", "guide", "guide", "position"]}
+    told = "dry friction at guide, of a form that is open: coulomb or dahl"
+    assert headline(diagnosis("tie", **one, family="dry friction"))[0].endswith(told)
+    leading = diagnosis("unknown", **one, family="dry friction", leading=[1, 2], leading_takes=[0.81, 0.8],
+                        leading_stays=[0.19, 0.2])
+    assert f"not confirmed: {told}; takes" in headline(leading)[0]
+    assert headline(diagnosis("tie", **one))[0].endswith("coulomb at guide or dahl at guide")
+
+
 def test_what_holds_in_part_says_so_with_what_it_leaves():
     found = diagnosis(in_part=1, model_error=3.1, left_floors=2.9, left_sentence="It lies between 20 and 40 Hz.",
                       unexplained_share=0.021, noise_verdict=["unknown", "missing"])

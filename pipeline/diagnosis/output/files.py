@@ -113,7 +113,7 @@ def as_json(product):
     document = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
-        "grade": _grade(product), "model_error": float(product.model_error),
+        "family": product.family.item(), "grade": _grade(product), "model_error": float(product.model_error),
         "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
                     zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],

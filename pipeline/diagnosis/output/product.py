@@ -9,6 +9,7 @@ from pipeline.diagnosis.output.combinations import combinations
 from pipeline.diagnosis.output.remainder import Remainder, remainder
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
+from pipeline.effects import family
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.held_out import errors
 from pipeline.inference.diagnosis import over_noise
@@ -54,6 +55,7 @@ def product(problem, diagnosis, contacts=None):
                 *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
         **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
+        family=_family(table, table["named"] or _leading(diagnosis, table)["leading"]),
         **_levels(levels), left_floors=left.floors, left_sentence=left.sentence,
         left_candidate=left.candidate, **_starts(runs, completed, std),
         completed_step=problem.step / 2**halvings if (halvings := completed.hypothesis.halvings) > 0 else 0.0,
@@ -165,6 +167,11 @@ def _leading(diagnosis, table):
     every = (decision.leading, *decision.family) if decision.leading else ()
     return {"leading": [table["hypothesis"].index(c.name) for c in every],
             "leading_takes": [c.takes for c in every], "leading_stays": [c.stays for c in every]}
+
+
+def _family(table, rows):
+    """What the laws in ``rows`` of the ``table`` of hypotheses are called together."""
+    return family(*([table[key][k] for k in rows] for key in ("effect", "place")))
 
 
 def _levels(levels):

@@ -37,5 +37,6 @@ def _damped(law, loss, length):
 EFFECT = Effect(
     name="contact_damping", summary="damping of contacts along their normals", location="pressed contact",
     stage="contact", parameters=parameters, apply=apply, linear=("loss",),
+    family="damping",
     source="K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440",
     valid="Valid while contacts do not stick to each other: the force never pulls.")

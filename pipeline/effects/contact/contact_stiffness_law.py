@@ -53,5 +53,6 @@ def _table(law, members, area, reference):
 EFFECT = Effect(
     name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", location="pressed contact",
     stage="contact", parameters=parameters, apply=apply,
+    family="nonlinear stiffness",
     source="K. Willner, L. Gaul, Proc. Contact Mechanics II (1995); J. A. Greenwood, J. B. P. Williamson (1966)",
     valid="Valid to a hundred times the reference pressure, beyond which the last slope goes on.")

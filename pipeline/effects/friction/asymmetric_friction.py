@@ -21,5 +21,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="asymmetric_friction", summary="dry friction that is larger in one direction", location="joint",
     stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",),
+    family="dry friction",
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083",
     valid="Valid while the normal force in the joint stays the same.")

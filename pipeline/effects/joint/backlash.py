@@ -18,5 +18,6 @@ def apply(bench, location, values):
 
 EFFECT = Effect(
     name="backlash", summary="free play in a joint", location="joint", stage="structure", parameters=parameters,
+    family="nonlinear stiffness",
     apply=apply, source="S. Dubowsky, F. Freudenstein, J. Eng. Ind. 93 (1971) 305",
     valid="Valid while the damper of the joint works within the gap as beyond it.")

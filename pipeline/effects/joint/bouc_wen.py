@@ -28,6 +28,7 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="bouc_wen", summary="a joint that yields smoothly and recovers on the way back", location="joint",
     stage="structure", parameters=parameters, apply=apply, small=False,
+    family="dry friction",
     source="R. Bouc, Proc. 4th Conf. Nonlinear Oscillations (1967) 315; Y.-K. Wen, J. Eng. Mech. Div. ASCE 102 (1976)"
            " 249, exponent 1",
     valid="Valid while the preload of the joint stays the same.")

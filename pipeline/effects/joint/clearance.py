@@ -24,5 +24,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="clearance", summary="contacts that close later, or earlier, than thought",
     location="pressed contact", stage="contact", parameters=parameters, apply=apply,
+    family="nonlinear stiffness",
     source="A. Signorini, Atti Soc. Ital. Progr. Sci. (1933): unilateral contact, with an initial gap",
     valid="Valid while the gap is the same all over the group.")

@@ -20,5 +20,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="coulomb", summary="dry friction of one size in both directions", location="joint", stage="friction",
     parameters=parameters, apply=apply, small=False, linear=("force",),
+    family="dry friction",
     source="C.-A. Coulomb, Theorie des machines simples (1785)",
     valid="Valid while the normal force in the joint stays the same and the joint slides more than it sticks.")

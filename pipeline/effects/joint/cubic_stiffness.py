@@ -18,5 +18,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="cubic_stiffness", summary="a joint that gets stiffer (or softer) with deflection, alike both ways",
     location="joint", stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
+    family="nonlinear stiffness",
     source="G. Duffing, Erzwungene Schwingungen bei veraenderlicher Eigenfrequenz (1918)",
     valid="Valid while the force grows with deflection: k + 3 k_3 e^2 > 0.")

@@ -32,6 +32,7 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="hysteretic_joint", summary="micro-slip in a joint: loss and softening that grow with amplitude",
     location="joint", stage="structure", parameters=parameters, apply=apply, small=False,
+    family="dry friction",
     source="W. D. Iwan, J. Appl. Mech. 33 (1966) 893; D. J. Segalman, J. Appl. Mech. 72 (2005) 752; for"
            " few sliders G. M. Jenkins, Br. J. Appl. Phys. 13 (1962) 30",
     valid="Valid while the preload of the joint stays the same and its share slips within the joint.")

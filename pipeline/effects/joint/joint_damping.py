@@ -22,5 +22,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="joint_damping", summary="viscous damping in a joint", location="joint", stage="structure",
     parameters=parameters, apply=apply, linear=("damping",),
+    family="damping",
     source="Lord Rayleigh, The Theory of Sound (1877), section 45",
     valid="Valid while losses grow with the square of amplitude and with frequency.")

@@ -30,5 +30,6 @@ def _yielding(friction, added):
 EFFECT = Effect(
     name="micro_slip", summary="contacts that give way before they slide", location="contacts", stage="friction",
     parameters=parameters, apply=apply, small=False,
+    family="dry friction",
     source="M. Allgaier, L. Gaul, W. Keiper, K. Willner, Mode lock-in and friction modelling (1999), section 4",
     valid="Valid while the way before sliding is short against the vibration along the contact.")

@@ -18,5 +18,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="quadratic_damping", summary="a joint whose damping grows with speed", location="joint", stage="structure",
     parameters=parameters, apply=apply, small=False, linear=("coefficient",),
+    family="damping",
     source="J. R. Morison et al., Petroleum Trans. AIME 189 (1950) 149: the drag term",
     valid="Valid while the flow that resists is turbulent.")

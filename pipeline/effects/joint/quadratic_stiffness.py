@@ -18,5 +18,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="quadratic_stiffness", summary="a joint that is stiffer one way than the other", location="joint",
     stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
+    family="nonlinear stiffness",
     source="H. von Helmholtz, Die Lehre von den Tonempfindungen (1863)",
     valid="Valid while the force grows with deflection: k + 2 k_2 e > 0.")

@@ -25,5 +25,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="viscous", summary="friction that rises with the sliding speed", location="contact", stage="friction",
     parameters=parameters, apply=apply, linear=("slope",),
+    family="damping",
     source="R. Stribeck, Z. VDI 46 (1902) 1341: the branch of full film",
     valid="Valid below 20 m/s and 20 times the speed of the drive, beyond which friction stays the same.")

@@ -29,6 +29,7 @@ EFFECT = Effect(
     name="dahl", summary="dry friction that is built up over a way", location="joint", stage="friction",
     parameters=parameters, apply=apply, small=False, linear=("force",),
     extends=("coulomb",),
+    family="dry friction",
     source="P. R. Dahl, Aerospace Corporation report TOR-0158(3107-18)-1 (1968), exponent 1",
     valid="Valid while the normal force in the joint stays the same; a spring F_c / L that the step does not resolve is"
           " taken as the stiffest that it does.")

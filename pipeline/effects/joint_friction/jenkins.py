@@ -28,5 +28,6 @@ EFFECT = Effect(
     name="jenkins", summary="a spring with a dry slider beside a joint", location="joint", stage="structure",
     parameters=parameters, apply=apply,
     extends=("coulomb",),
+    family="dry friction",
     source="G. M. Jenkins, Br. J. Appl. Phys. 13 (1962) 30",
     valid="Valid while the whole contact slips at once.")

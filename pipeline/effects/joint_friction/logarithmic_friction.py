@@ -24,6 +24,7 @@ EFFECT = Effect(
     name="logarithmic_friction", summary="friction that rises with the logarithm of the speed", location="joint",
     stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",),
     elaborate=True, extends=("coulomb",),
+    family="dry friction",
     source="F. P. Bowden, D. Tabor, The Friction and Lubrication of Solids II (1964): thermally activated shear; J. R."
            " Rice, N. Lapusta, K. Ranjith, J. Mech. Phys. Solids 49 (2001) 1865: regularised",
     valid="Valid while the normal force in the joint stays the same and the contact forgets within less way than the"

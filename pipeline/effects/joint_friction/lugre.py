@@ -38,6 +38,7 @@ EFFECT = Effect(
     name="lugre", summary="friction of bristles that break away and slide with less force", location="joint",
     stage="friction", parameters=parameters, apply=apply, small=False, elaborate=True,
     extends=("dahl", "coulomb"),
+    family="dry friction",
     source="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419",
     valid="Valid while the normal force in the joint stays the same; bristles that the step does not resolve are taken"
           " as the stiffest that it does.")

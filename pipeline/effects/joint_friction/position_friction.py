@@ -30,5 +30,6 @@ EFFECT = Effect(
     name="position_friction", summary="dry friction that is larger at one end of a joint", location="joint",
     stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",), elaborate=True,
     extends=("coulomb",),
+    family="dry friction",
     source="B. Armstrong, Int. J. Robotics Research 7 (1988) 107: friction of a robot by position",
     valid="Valid while friction changes in proportion to the position over the whole motion.")

@@ -37,6 +37,7 @@ EFFECT = Effect(
     name="rate_state_ageing", summary="friction that follows speed and age of the contact, which ages at rest too",
     location="joint", stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",),
     elaborate=True, extends=("coulomb",),
+    family="dry friction",
     source="J. H. Dieterich, J. Geophys. Res. 84 (1979) 2161; J. R. Rice, N. Lapusta, K. Ranjith, J. Mech. Phys. Solids"
            " 49 (2001) 1865: regularised",
     valid="Valid while the normal force in the joint stays the same and every run begins settled at its first speed.")

@@ -18,6 +18,7 @@ EFFECT = Effect(
     name="rate_state_slip", summary="friction that follows speed and state of the contact, which slip alone changes",
     location="joint", stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",),
     elaborate=True, extends=("coulomb",),
+    family="dry friction",
     source="A. Ruina, J. Geophys. Res. 88 (1983) 10359; J. R. Rice, N. Lapusta, K. Ranjith, J. Mech. Phys. Solids 49"
            " (2001) 1865: regularised",
     valid="Valid while the normal force in the joint stays the same and every run begins settled at its first speed.")

@@ -37,5 +37,6 @@ EFFECT = Effect(
     name="series_stiffness", summary="a joint with dry friction behind a contact stiffness", location="joint",
     stage="structure", parameters=parameters, apply=apply, elaborate=True,
     extends=("coulomb",),
+    family="dry friction",
     source="E. J. Berger, Appl. Mech. Rev. 55 (2002) 535: friction in series with contact compliance",
     valid="Valid while the mass between contact and joint is negligible.")

@@ -27,6 +27,7 @@ EFFECT = Effect(
     name="stribeck_joint", summary="dry friction that falls with speed, and drag of a film", location="joint",
     stage="friction", parameters=parameters, apply=apply, linear=("damping",), elaborate=True,
     extends=("coulomb", "joint_damping"),
+    family="dry friction",
     source="R. Stribeck, Z. VDI 46 (1902) 1341; B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30"
            " (1994) 1083: exponential drop",
     valid="Valid while the normal force in the joint stays the same and the film follows the speed at once.")

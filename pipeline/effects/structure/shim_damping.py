@@ -37,6 +37,7 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="shim_damping", summary="a constrained layer: the same loss factor over a band of frequencies",
     location="joint", stage="structure", parameters=parameters, apply=apply, linear=("loss_factor",),
+    family="damping",
     source="M. A. Biot, Proc. 3rd US Nat. Congr. Appl. Mech. (1958) 1: relaxation spectrum of structural damping;"
            " D. Ross, E. E. Ungar, E. M. Kerwin, Structural Damping (1959): constrained layer",
     valid="Valid from a third to three times the frequency, at one temperature of the shim.")

@@ -27,5 +27,6 @@ EFFECT = Effect(
     name="viscoelastic_pad", summary="a pad that relaxes: stiffer and lossier for fast motion", location="joint",
     stage="structure", parameters=parameters, apply=apply, linear=("share",),
     extends=("joint_damping",),
+    family="damping",
     source="C. Zener, Elasticity and Anelasticity of Metals (1948): standard linear solid",
     valid="Valid while one relaxation matters, and runs whose start is known begin relaxed.")

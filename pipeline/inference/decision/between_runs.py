@@ -1,7 +1,7 @@
 """Whether runs that no model explains together are each explained by the nominal one, at values of their own."""
 
 import numpy as np
-import scipy.stats
+import scipy
 
 from pipeline.inference.fitting.effective_sample_size import doubt
 from pipeline.inference.fitting.fit_state import linearised

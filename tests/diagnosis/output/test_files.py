@@ -80,6 +80,11 @@ def test_the_grade_says_how_far_what_is_named_holds():
                            leading_stays=np.zeros(1)))["grade"] == "leading"
 
 
+def test_laws_that_cannot_be_told_apart_come_with_their_family():
+    assert as_json(replace(told(), family=np.array("dry friction")))["family"] == "dry friction"
+    assert as_json(told())["family"] == ""
+
+
 def test_the_latent_force_is_written_as_numbers():
     lines = companions(told(), CASE)["latent_force.csv"].splitlines()
     assert lines[0].endswith("description, not identified physics.") and lines[1].startswith("run,time_s,force_N")

@@ -2,7 +2,14 @@
 
 import numpy as np
 
-from pipeline.views.chapters.bench.hypotheses import combination_table, hypothesis_table, words
+from pipeline.views.chapters.bench.hypotheses import (
+    combination_table,
+    effect_at,
+    hypothesis_table,
+    named_effects,
+    of_one_family,
+    words,
+)
 from pipeline.views.chapters.bench.model_errors import changes, differs, error_table, held_out_stops, stop_table
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.chapters.squeal_check import squeal_note, squeal_tables
@@ -21,7 +28,7 @@ _VALUES = 8
 
 def headline(product):
     """(sentence, tone) of the first screen."""
-    named = _named(product)
+    named = named_effects(product)
     verb = "is" if " and " not in named else "are"
     tie = "Missing effect identified up to ambiguity" if len(product.named) > 1 else _PROPOSED
     sentences = {
@@ -71,24 +78,10 @@ def _map(product):
                   " alone.")
 
 
-def _named(product):
-    """Effects already known, and the one named in addition, or the alternatives for it."""
-    parts = [_effect(product, k) for k in product.known]
-    parts += [" or ".join(_effect(product, k) for k in product.named)] * bool(len(product.named))
-    return (", and " if len(product.named) > 1 else " and ").join(parts)
-
-
 def _measured(product):
     """Whether the fault lies in the measurement alone."""
     physics = any(str(product.kind[k]) == "physics" for k in product.known)
     return "The measurement, and physics too" if physics else "The measurement, not the physics"
-
-
-def _effect(product, k):
-    if not product.effect[k]:
-        return "nothing"
-    contacts = f" ({product.contacts[k]})" if product.contacts[k] else ""
-    return f"{str(product.effect[k]).replace('_', ' ')} at {product.place[k]}{contacts}"
 
 
 def _unknown(product):
@@ -98,10 +91,10 @@ def _unknown(product):
     if not len(product.leading):
         doubted = _doubted(product)
         return f"Unmodelled physics{_at(product)}, outside the catalogue" if doubted is None else \
-            f"Unmodelled physics{_at(product)}; the fit of {_effect(product, doubted)} cannot be relied on"
-    k = product.leading[0]
-    takes = percent(product.leading_takes[0], 2)
-    return f"Leading explanation, not confirmed: {_effect(product, k)}; takes {takes} of the excess error"
+            f"Unmodelled physics{_at(product)}; the fit of {effect_at(product, doubted)} cannot be relied on"
+    leading, takes = product.leading, percent(product.leading_takes[0], 2)
+    what = of_one_family(product, leading) or effect_at(product, leading[0])
+    return f"Leading explanation, not confirmed: {what}; takes {takes} of the excess error"
 
 
 def _leading(product):
@@ -111,16 +104,16 @@ def _leading(product):
     if not len(product.leading):
         doubted = _doubted(product)
         return "No effect of the catalogue helps beyond chance: the physics lies outside it." if doubted is None else (
-            f"The most probable explanation, {_effect(product, doubted)}, cannot be relied on:"
+            f"The most probable explanation, {effect_at(product, doubted)}, cannot be relied on:"
             f" {product.objection[doubted]}.")
     k, *family = product.leading
     judged = "of the excess error on held-out runs" if any(r.held_out for r in product.runs.values()) else \
         "of the excess error"
-    return (f"The leading explanation is {_effect(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
+    return (f"The leading explanation is {effect_at(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
             f" probability): it takes {percent(product.leading_takes[0], 2)} {judged}, and"
             f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise."
-            + (f" Of its family, {_listed([_effect(product, each) for each in family])} would take nearly as much: the"
-               " form of the law is open." if family else ""))
+            + (f" Of its family, {_listed([effect_at(product, each) for each in family])} would take nearly as much:"
+               " the form of the law is open." if family else ""))
 
 
 def _doubted(product):
@@ -206,10 +199,10 @@ def _missing(product):
     if verdict in ("missing", "sensor", "numerics"):
         values = "; ".join(_value(product, k) for k in range(len(product.parameter)) if product.parameter_owner[k])
         values_of_one = values if len(product.named) < 2 else ""      # otherwise they belong to the first alone
-        return f"{_first_up(_named(product))}{': ' + values_of_one if values_of_one else ''}."
+        return f"{_first_up(named_effects(product))}{': ' + values_of_one if values_of_one else ''}."
     if verdict == "tie":
         alternatives = "One of these, which the recordings cannot distinguish"
-        return f"{alternatives if len(product.named) > 1 else _PROPOSED}: {_named(product)}."
+        return f"{alternatives if len(product.named) > 1 else _PROPOSED}: {named_effects(product)}."
     if verdict == "unknown":
         force = product.latent_sentence.item() or "No latent force could be estimated."
         return f"{_leading(product)} {force}"

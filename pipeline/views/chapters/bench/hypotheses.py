@@ -1,4 +1,4 @@
-"""Tables of the chapter on what is missing: all hypotheses, and the combinations that were tried."""
+"""Effects and hypotheses in words, and tables of these and of the combinations that were tried."""
 
 import numpy as np
 
@@ -7,6 +7,30 @@ from pipeline.views.figures.number_format import number, percent
 
 #: rows of the table of hypotheses that are shown unfolded
 ROWS = 12
+
+
+def effect_at(product, k):
+    """Hypothesis ``k`` of the product in words: 'coulomb at guide'."""
+    if not product.effect[k]:
+        return "nothing"
+    contacts = f" ({product.contacts[k]})" if product.contacts[k] else ""
+    return f"{words(product.effect[k])} at {product.place[k]}{contacts}"
+
+
+def of_one_family(product, rows):
+    """'dry friction at guide, of a form that is open: coulomb or dahl' of the hypotheses ``rows`` that are named or
+    lead; '' where they are of no family."""
+    if not (product.family.item() and len(rows)):
+        return ""
+    forms = " or ".join(words(product.effect[k]) for k in rows)
+    return f"{product.family.item()} at {product.place[rows[0]]}, of a form that is open: {forms}"
+
+
+def named_effects(product):
+    """Effects already known, and the one named in addition, or the alternatives for it."""
+    parts = [effect_at(product, k) for k in product.known]
+    named = of_one_family(product, product.named) or " or ".join(effect_at(product, k) for k in product.named)
+    return (", and " if len(product.named) > 1 else " and ").join(filter(None, (*parts, named)))
 
 
 def hypothesis_table(product):
