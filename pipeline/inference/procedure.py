@@ -211,9 +211,10 @@ class Asked:
             if fit is None:
                 return None, replace(tried, outcome=NOT_BEGUN.failure), True
             left, error = several_laws.left_by(asked.problem, self.budget, single.null, fit, self.settings.rules)
-            tried = replace(tried, objective=fit.objective, held_out=error)
+            tried = replace(tried, objective=fit.objective, held_out=error, left=left,
+                            values=several_laws.values_of(fit, (*known, last)))
             if left > self.settings.rules.decision.unexplained:
-                return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
+                return None, replace(tried, outcome=several_laws.too_much(left, self.settings.rules)), False
             whole, why = asked.named_together(single, fit.latent, last, known)
             rivals = self if any(c.elaborate for c in (*known, last)) else replace(
                 self, catalogue=tuple(c for c in self.catalogue if not c.elaborate))

@@ -72,6 +72,8 @@ class DecisionRules:
 
     posterior: float = threshold(0.9, "posterior of the named set among all candidates that break no rule")
     leads: float = threshold(0.05, "posterior without which nothing is told as the leading explanation")
+    leads_together: float = threshold(0.25, "fraction of the excess error that laws may leave together which are told"
+                                            " as the leading explanation")
     one_factor: float = threshold(1.5, "factor by which a candidate that moves all nominal values alike explains"
                                        " nothing")
     outweighed: float = threshold(1.0, "posterior of the candidates that break no rule over that of those that do")

@@ -49,6 +49,7 @@ def diagnosis(verdict="missing", **values):
         "held_out_error": [0.0, 1.2, 0.0, 0.0], "combination": ["coulomb at a + cubic_stiffness at a"],
         "combination_gain": [12.0], "combination_refitted": [1], "combination_objective": [120.0],
         "combination_held_out": [1.1], "combination_outcome": ["coulomb at a adds an evidence of 1.0 nat"],
+        "combination_left": [0.11], "combination_values": ["coulomb at a.force 0.19 N"], "leading_set": [],
         "objection": ["", "", "its sign cannot be", ""],
         "parameter": ["joints.guide.damping", "coulomb@guide.force"], "parameter_unit": ["N s/m", "N"],
         "parameter_nominal": [200.0, 0.0], "parameter_value": [215.0, 20.4], "parameter_std": [4.0, 0.3],

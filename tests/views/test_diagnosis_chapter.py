@@ -124,6 +124,14 @@ def test_laws_of_one_family_at_one_place_are_called_by_it():
     assert headline(diagnosis("tie", **one))[0].endswith("coulomb at guide or dahl at guide")
 
 
+def test_laws_that_explain_much_together_lead_with_their_values_and_why_they_are_not_named():
+    found = diagnosis("unknown", leading=[1], leading_takes=[0.19], leading_stays=[0.8], leading_set=[0])
+    assert headline(found)[0] == ("Leading explanation, not confirmed: coulomb at a and cubic stiffness at a together;"
+                                  " 11 % of the excess error stays")
+    told = dict(note(found))["What is missing"]
+    assert "coulomb at a.force 0.19 N" in told and "not named: coulomb at a adds an evidence of 1.0 nat" in told
+
+
 def test_what_holds_in_part_says_so_with_what_it_leaves():
     found = diagnosis(in_part=1, model_error=3.1, left_floors=2.9, left_sentence="It lies between 20 and 40 Hz.",
                       unexplained_share=0.021, noise_verdict=["unknown", "missing"])
@@ -215,10 +223,11 @@ def test_every_threshold_is_listed_with_its_unit(written):
 def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_there_are_none(written):
     title = "Combinations of effects that were tried"
     table = next(t for t in written.tables if t.title == title)
-    assert table.rows == (("coulomb at a + cubic stiffness at a", "12", "120", "1.1",
-                           "coulomb at a adds an evidence of 1.0 nat"),)
+    assert table.rows == (("coulomb at a + cubic stiffness at a", "12", "120", "11\u202f%", "1.1",
+                           "coulomb at a adds an evidence of 1.0 nat", "coulomb at a.force 0.19 N"),)
     none = dict.fromkeys(("combination", "combination_gain", "combination_refitted", "combination_objective",
-                          "combination_held_out", "combination_outcome"), [])
+                          "combination_held_out", "combination_left", "combination_values",
+                          "combination_outcome"), [])
     assert all(t.title != title for t in chapter(changed(diagnosis(), **none), Look()).tables)
 
 

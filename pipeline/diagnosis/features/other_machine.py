@@ -60,8 +60,8 @@ class OtherMachine:
                     " values. Is this a recording of the machine that the case describes?")
         none = np.zeros(0, int)
         return replace(product, verdict=np.array("unknown", dtype=object), named=none, known=none,
-                       family=np.array("", dtype=object), model_error=np.ones(()), in_part=np.zeros((), int), leading=none,
-                       leading_takes=np.zeros(0), leading_stays=np.zeros(0),
+                       family=np.array("", dtype=object), model_error=np.ones(()), in_part=np.zeros((), int),
+                       leading=none, leading_set=none, leading_takes=np.zeros(0), leading_stays=np.zeros(0),
                        other_machine=np.array(sentence, dtype=object),
                        reason=np.array([sentence, *product.reason], dtype=object))
 

@@ -11,7 +11,14 @@ def combinations(diagnosis):
             "combination_refitted": [int(c.objective is not None) for c in tried],
             "combination_objective": [c.objective or 0.0 for c in tried],
             "combination_held_out": [c.held_out or 0.0 for c in tried],
+            "combination_left": [c.left or 0.0 for c in tried],
+            "combination_values": ["; ".join(map(_value, c.values)) for c in tried],
             "combination_outcome": [c.outcome or NOT_REFITTED for c in tried]}
+
+
+def _value(of):
+    name, value, unit = of
+    return f"{name.replace('@', ' at ')} {value:.4g}{'' if unit == '1' else f' {unit}'}"
 
 
 def as_rows(product):
@@ -23,4 +30,6 @@ def _row(product, k):
     refitted, held_out = product.combination_refitted[k], float(product.combination_held_out[k])
     return {"effects": str(product.combination[k]).split(" + "), "evidence_gain": float(product.combination_gain[k]),
             "objective": float(product.combination_objective[k]) if refitted else None,
-            "held_out_error": held_out or None, "outcome": str(product.combination_outcome[k])}
+            "held_out_error": held_out or None,
+            "leaves": float(product.combination_left[k]) if refitted else None,
+            "values": str(product.combination_values[k]), "outcome": str(product.combination_outcome[k])}

@@ -116,6 +116,7 @@ def as_json(product):
         "family": product.family.item(), "grade": _grade(product), "model_error": float(product.model_error),
         "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
                     zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
+        "leading_set": [as_rows(product)[k] for k in product.leading_set],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
         "combinations": as_rows(product),
         "not_judged": [_not_judged(product, k) for k in range(len(product.hypothesis))
@@ -143,7 +144,7 @@ def _grade(product):
     """What to make of the verdict: effects that hold "to the noise", "in part", or only "leading"; else empty."""
     if len(product.named):
         return "in part" if product.in_part else "to the noise"
-    return "leading" if len(product.leading) else ""
+    return "leading" if len(product.leading) or len(product.leading_set) else ""
 
 
 def _parameter(product, k):

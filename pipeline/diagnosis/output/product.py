@@ -10,6 +10,7 @@ from pipeline.diagnosis.output.remainder import Remainder, remainder
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
 from pipeline.effects import family
+from pipeline.inference.decision import several_laws
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.held_out import errors
 from pipeline.inference.diagnosis import over_noise
@@ -55,7 +56,7 @@ def product(problem, diagnosis, contacts=None):
                 *attempt.failures],
         channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
         **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
-        family=_family(table, table["named"] or _leading(diagnosis, table)["leading"]),
+        leading_set=_leading_set(problem, diagnosis),
         **_levels(levels), left_floors=left.floors, left_sentence=left.sentence,
         left_candidate=left.candidate, **_starts(runs, completed, std),
         completed_step=problem.step / 2**halvings if (halvings := completed.hypothesis.halvings) > 0 else 0.0,
@@ -162,16 +163,18 @@ def _hypotheses(diagnosis):
 
 
 def _leading(diagnosis, table):
-    """Fields of what leads where nothing is named, and of its family."""
+    """Fields of what leads where nothing is named, and of the family of that or of what is named."""
     decision = diagnosis.decision
     every = (decision.leading, *decision.family) if decision.leading else ()
-    return {"leading": [table["hypothesis"].index(c.name) for c in every],
+    rows = [table["hypothesis"].index(c.name) for c in every]
+    told = table["named"] or rows
+    return {"leading": rows, "family": family(*([table[key][k] for k in told] for key in ("effect", "place"))),
             "leading_takes": [c.takes for c in every], "leading_stays": [c.stays for c in every]}
 
 
-def _family(table, rows):
-    """What the laws in ``rows`` of the ``table`` of hypotheses are called together."""
-    return family(*([table[key][k] for k in rows] for key in ("effect", "place")))
+def _leading_set(problem, diagnosis):
+    best = several_laws.leading(diagnosis.combinations, diagnosis.decision, problem.rules)
+    return np.array([] if best is None else [best], int)
 
 
 def _levels(levels):

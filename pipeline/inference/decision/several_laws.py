@@ -89,6 +89,28 @@ def left_by(problem, budget, null, fit, rules):
     return unexplained(null, fit, rules), gained and gained.error
 
 
+def too_much(left, rules):
+    """That laws leave the share ``left`` of the excess error, in words."""
+    return (f"together they leave {left:.1%} of the excess error, where {rules.decision.unexplained:.0%} may stay"
+            " (decision.unexplained)")
+
+
+def values_of(fit, laws):
+    """((parameter, value, unit), ...) of ``laws`` (Hypothesis, ...) in a Fit."""
+    return tuple((p.name, fit.values[p.name], p.unit) for law in laws for p in law.parameters)
+
+
+def leading(combinations, decision, rules):
+    """Index of the set of laws that predicts held-out runs best, else fits best, among the ``combinations`` that leave
+    little together and half of what the leading law of a Decision ``unknown`` leaves; None where none does."""
+    if decision.verdict != "unknown":
+        return None
+    alone = 1 - decision.leading.takes if decision.leading else 1.0
+    good = [k for k, c in enumerate(combinations) if c.left is not None
+            and c.left <= min(rules.decision.leads_together, alone / 2)]
+    return min(good, key=lambda k: (combinations[k].held_out or 0.0, combinations[k].left), default=None)
+
+
 def unneeded(problem, budget, null, without, whole, members, rules):
     """Why ``members`` (Hypotheses), fitted together as the Fit ``whole``, can do without one of them, in words.
 

@@ -13,7 +13,8 @@ class Combination:
     """A combination of candidates that was tried: their ``effects`` (name, ...) and the ``gain`` of its evidence.
 
     ``gain``: ln Z over the nominal model along measured motions or linearised, multiplicity paid for. ``objective`` of
-    its refit and ``held_out`` error there in noise floors, None where it was not refitted. ``outcome``: in words.
+    its refit, ``held_out`` error there in noise floors and the share ``left`` of the excess error, None where it was
+    not refitted; ``values`` ((parameter, value, unit), ...) of its laws there. ``outcome``: in words.
     """
 
     effects: tuple
@@ -21,6 +22,8 @@ class Combination:
     objective: float | None = None
     held_out: float | None = None
     outcome: str = ""
+    left: float | None = None
+    values: tuple = ()
 
 
 @dataclass(frozen=True)

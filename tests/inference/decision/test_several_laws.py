@@ -1,6 +1,7 @@
 """When each of several laws is needed beside the others."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -8,6 +9,7 @@ from pipeline.inference.decision import several_laws
 from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.rules import DEFAULTS
+from pipeline.inference.search.selection import Combination
 from tests.inference import linear
 
 
@@ -54,3 +56,16 @@ def test_a_fit_that_may_still_leave_little_enough_is_not_given_up():
     rules, left = DEFAULTS, [several_laws.left_by(whole, noise, null, each, DEFAULTS)[0] for each in (one, two)]
     assert left[0] > rules.decision.unexplained > left[1]
     assert two.objective < several_laws.hoped(null, rules) < one.objective
+
+
+def test_laws_lead_together_where_they_leave_little_and_half_of_what_one_law_leaves():
+    def tried(left, held_out=None):
+        return Combination(("a", "b"), 1.0, 100.0, held_out, "too much", left)
+
+    unknown = SimpleNamespace(verdict="unknown", leading=None)
+    leads = SimpleNamespace(verdict="unknown", leading=SimpleNamespace(takes=0.8))
+    every = (Combination(("a", "c"), 3.0), tried(0.3), tried(0.09, 6.5), tried(0.11, 3.1))
+    assert several_laws.leading(every, unknown, DEFAULTS) == 3, "what predicts runs that were not fitted best"
+    assert several_laws.leading(every, leads, DEFAULTS) == 2
+    assert several_laws.leading(every[:2], unknown, DEFAULTS) is None
+    assert several_laws.leading(every, SimpleNamespace(verdict="missing", leading=None), DEFAULTS) is None

@@ -6,6 +6,7 @@ from pipeline.views.chapters.bench.hypotheses import (
     combination_table,
     effect_at,
     hypothesis_table,
+    leading_set,
     named_effects,
     of_one_family,
     words,
@@ -88,6 +89,8 @@ def _unknown(product):
     """Headline where nothing is named: what leads, or that the catalogue, or the machine, is another one."""
     if product.other_machine.item():
         return "The recordings do not fit this model: are they of another machine?"
+    if len(product.leading_set):
+        return f"Leading explanation, not confirmed: {leading_set(product)}"
     if not len(product.leading):
         doubted = _doubted(product)
         return f"Unmodelled physics{_at(product)}, outside the catalogue" if doubted is None else \
@@ -101,6 +104,8 @@ def _leading(product):
     """What leads where nothing is named, and what stays."""
     if product.other_machine.item():
         return product.other_machine.item()
+    if len(product.leading_set):
+        return f"No law alone explains much. Together {leading_set(product, True)}"
     if not len(product.leading):
         doubted = _doubted(product)
         return "No effect of the catalogue helps beyond chance: the physics lies outside it." if doubted is None else (

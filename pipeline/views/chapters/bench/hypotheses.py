@@ -33,6 +33,17 @@ def named_effects(product):
     return (", and " if len(product.named) > 1 else " and ").join(filter(None, (*parts, named)))
 
 
+def leading_set(product, whole=False):
+    """The laws that lead together, and what they leave; ``whole``: as sentences with their values and why they are not
+    named."""
+    k = product.leading_set[0]
+    laws, stays = words(product.combination[k]).replace(" + ", " and "), percent(product.combination_left[k], 2)
+    if not whole:
+        return f"{laws} together; {stays} of the excess error stays"
+    return (f"{laws} leave {stays} of the excess error of the fitted runs: {words(product.combination_values[k])}. They"
+            f" are not named: {words(product.combination_outcome[k])}.")
+
+
 def hypothesis_table(product):
     """All hypotheses, the most probable first."""
     order = np.argsort(-product.posterior, kind="stable")
@@ -49,10 +60,13 @@ def combination_table(product):
     """Combinations of effects and what became of them, or None where none was tried."""
     rows = tuple((words(product.combination[k]), number(product.combination_gain[k], 3),
                   number(product.combination_objective[k], 3) if product.combination_refitted[k] else "—",
-                  _error(product.combination_held_out[k]), words(product.combination_outcome[k]))
-                 for k in range(len(product.combination)))
-    head = ("effects together", "ln evidence", "objective", "held-out error in noise floors", "outcome")
-    return Table(head, rows, "Combinations of effects that were tried", (1, 2, 3), (4,), folded=True) if rows else None
+                  percent(product.combination_left[k], 2) if product.combination_refitted[k] else "—",
+                  _error(product.combination_held_out[k]), words(product.combination_outcome[k]),
+                  words(product.combination_values[k])) for k in range(len(product.combination)))
+    head = ("effects together", "ln evidence", "objective", "leaves", "held-out error in noise floors", "outcome",
+            "values")
+    return Table(head, rows, "Combinations of effects that were tried", (1, 2, 3, 4), (5, 6),
+                 folded=True) if rows else None
 
 
 def _error(floors):
