@@ -1,24 +1,35 @@
 """Two laws, one found beside the other: the simple ones that explain most together, else each leading one as known."""
 
 from dataclasses import replace
+from itertools import islice
 
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision import second_effect
 from pipeline.inference.diagnosis import decided
-from pipeline.inference.search.pair_race import best_pair
+from pipeline.inference.search.pair_race import race
 from pipeline.inference.time_budget import spent
+
+#: pairs of a race that are weighed at most
+_TRIED = 3
+
+
+def raced(asked, single):
+    """The Diagnosis of two simple laws that explain nearly all together, where ``single``, by one law of what was
+    Asked, names none or a tie, else that."""
+    if single.decision.verdict not in ("unknown", "tie"):
+        return single
+    asked = replace(asked, catalogue=single.refits.refitter.catalogue)
+    pairs = race(asked.problem, asked.budget, single, asked.catalogue, asked.settings, asked.fan_out)
+    for pair in islice(pairs, _TRIED):
+        single = asked.together(single, pair.selected(single.null, asked.catalogue))
+        if single.base is not None or spent():
+            break
+    return single
 
 
 def beside(asked, single, seconds):
-    """The Diagnosis of a pair of laws that matter, else ``single``, one by one law of what was Asked.
-
-    Simple laws that explain nearly all together are weighed as a set. Else each leading effect is taken as known, and
-    one of ``seconds`` (Hypotheses) looked for beside it.
-    """
-    if single.decision.verdict == "unknown" and not spent():
-        single = _of_two_simple_laws(asked, single)
-        if single.base is not None:
-            return single
+    """The Diagnosis of a pair of a leading effect, taken as known, and one of ``seconds`` (Hypotheses) that matters,
+    else ``single``, by one law of what was Asked."""
     for first in second_effect.leading(single, asked.settings.rules):
         pair, matters = _pair(asked, single, first, seconds)
         why = matters and pair.decision.verdict == "missing" and _not_told(asked, single, first, pair)
@@ -35,13 +46,6 @@ def start_of(fit, single, law, known):
     """Latent values of a Fit in the order of the nominal model of ``single``, the laws ``known`` and one ``law``."""
     names = [p.name for p in fit.hypothesis.parameters]
     return fit.latent[[names.index(p.name) for h in (single.null.hypothesis, *known, law) for p in h.parameters]]
-
-
-def _of_two_simple_laws(asked, single):
-    """The Diagnosis of the two simple laws that explain most together, where that is enough, else ``single``."""
-    asked = replace(asked, catalogue=single.refits.refitter.catalogue)
-    pair = best_pair(asked.problem, asked.budget, single, asked.catalogue, asked.settings, asked.fan_out)
-    return asked.together(single, pair.selected(single.null, asked.catalogue)) if pair else single
 
 
 def _pair(asked, single, first, seconds):

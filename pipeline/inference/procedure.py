@@ -70,10 +70,9 @@ class Asked:
         """Diagnosis by one law, else several, along Motions where there are."""
         _, single = self.steps()
         try:
-            open_ = single.decision.verdict in ("unknown", "missing") and not (single.cut_short or self.alone)
-            if open_ and len(self.problem.runs) > 1:
-                single = (self.along(single, motions) if motions else
-                          self.by_the_screen(pairs.beside(self, single, self.catalogue)))
+            open_ = single.decision.verdict in ("unknown", "tie", "missing") and len(self.problem.runs) > 1
+            if open_ and not (single.cut_short or self.alone):
+                single = self.several(single, motions)
             if self.settings.tied_seconds and single.decision.verdict == "unknown":
                 return self._tied_pair(single)
         except TimeSpentError:
@@ -85,6 +84,17 @@ class Asked:
                                      " spent; allow more by diagnosis.time")
         with within(np.inf):        # what it names is examined in any case
             return self.of_its_form(single)
+
+    def several(self, single, motions):
+        """The Diagnosis of several laws: of two simple ones that leave nothing, of those along Motions, of pairs, else
+        the ``single`` one by one law."""
+        pair = pairs.raced(self, single)
+        if single.decision.verdict == "tie" or (pair.base is not None and reaches_noise(pair, self.settings.rules)):
+            return pair
+        single = replace(single, combinations=pair.combinations)
+        best = (self.along(single, motions) if motions else
+                self.by_the_screen(pairs.beside(self, single, self.catalogue)))
+        return pair if best.base is None and pair.base is not None else best
 
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.

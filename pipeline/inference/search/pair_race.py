@@ -53,20 +53,29 @@ class Pair:
         return Selection(members, (), (tried,), self.fit.latent[:size], values, frozenset(), 0.0)
 
 
-def best_pair(problem, budget, single, catalogue, settings, fan_out):
-    """The Pair of the ``catalogue`` that comes down furthest beside what the Diagnosis ``single`` has found; None where
-    none may leave as little as two laws may."""
+def race(problem, budget, single, catalogue, settings, fan_out):
+    """Yields the Pairs of the ``catalogue`` that come down furthest beside what the Diagnosis ``single`` has found and
+    may leave as little as two laws may: at once where one reaches the noise, as no other comes lower, else in the end.
+
+    The race goes on only where it is asked for another.
+    """
     simple = tuple(c for c in catalogue if not c.elaborate)
-    enough, pairs = several_laws.hoped(single.null, settings.rules), []
+    enough, pairs, told = several_laws.hoped(single.null, settings.rules), [], []
     for first in firsts(single, settings.rules):
-        found = _beside(problem, budget, single.null, simple, settings, fan_out, first)
-        pairs = sorted([*pairs, *found], key=lambda pair: pair.fit.objective)
-        if found and pairs[0].fit.reaches_noise(settings.rules.decision.noise_uncertainty):
-            return pairs[0]
-    best = pairs[:_LAST]
+        found = [pair for pair in _beside(problem, budget, single.null, simple, settings, fan_out, first)
+                 if set(pair.names) not in told]
+        best = min(found, key=lambda pair: pair.fit.objective, default=None)
+        if best and best.fit.reaches_noise(settings.rules.decision.noise_uncertainty):
+            told.append(set(best.names))
+            yield best
+        pairs += [pair for pair in found if set(pair.names) not in told]
+    best = sorted(pairs, key=lambda pair: pair.fit.objective)[:_LAST]
     fits = fan_out(partial(advanced, problem, enough, iterations=_FURTHER), [pair.fit for pair in best])
     ended = [replace(pair, fit=fit) for pair, fit in zip(best, fits, strict=True) if fit.objective <= enough]
-    return min(ended, key=lambda pair: pair.fit.objective, default=None)
+    for pair in sorted(ended, key=lambda pair: pair.fit.objective):
+        if set(pair.names) not in told:
+            told.append(set(pair.names))
+            yield pair
 
 
 def firsts(single, rules):

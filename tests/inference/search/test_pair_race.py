@@ -12,7 +12,7 @@ from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.procedure import Asked
 from pipeline.inference.rules import DEFAULTS
-from pipeline.inference.search.pair_race import best_pair, firsts
+from pipeline.inference.search.pair_race import firsts, race
 from tests.inference.oscillator import CATALOGUE, bench
 
 
@@ -21,7 +21,7 @@ def raced(extra, noise=0.1, catalogue=CATALOGUE):
     problem, settings = bench(5, noise, stiffness=380.0, extra=extra), Settings()
     noises = budget(problem)
     _, single = Asked(problem, noises, catalogue, settings, map).steps()
-    return single, best_pair(problem, noises, single, catalogue, settings, map)
+    return single, next(race(problem, noises, single, catalogue, settings, map), None)
 
 
 @pytest.mark.parametrize("extra, names", [
