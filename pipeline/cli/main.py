@@ -127,7 +127,17 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     if not computed:
         click.echo(f"nothing to compute: everything asked for is up to date in {job.folder}")
     elif (job.folder / "report.html").exists() and (last in (None, "report")):
+        click.echo(_headline(job.folder / "verdict.json"))
         click.echo(f"report: {job.folder / 'report.html'}")
+
+
+def _headline(file):
+    """What the first screen of the report says, by the verdict beside it, as far as the terminal can show it."""
+    import json
+
+    said = json.loads(file.read_text(encoding="utf-8"))["headline"].replace("\u202f", " ")
+    shows = sys.stdout.encoding or "ascii"
+    return f"verdict: {said.encode(shows, 'replace').decode(shows)}"
 
 
 def _job(config, folder, overrides):

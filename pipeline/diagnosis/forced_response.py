@@ -1,10 +1,12 @@
 """The problem of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
 
 from dataclasses import replace
+from difflib import get_close_matches
 
 from pipeline.case_models import corrections
 from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
+from pipeline.contract.errors import first_of
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.experiment_design.next_run import feasible
 from pipeline.diagnosis.problem import DiagnosisProblem, nominal, parameter_name
@@ -29,6 +31,9 @@ from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.step_error import longest
 from pipeline.inference.priors import LogNormal, Normal, Parameter
 from pipeline.inference.problem import Problem
+
+#: names that an error lists
+_LISTED = 20
 
 
 def forced_problem(bench, recorded, settings, remarks=()):
@@ -123,4 +128,6 @@ def check_names(key, wanted, known):
     """ConfigError at ``diagnosis.key`` for a wanted name that is not known."""
     unknown = [name for name in wanted if name not in known]
     if unknown:
-        raise ConfigError(f"diagnosis.{key}", f"of {', '.join(known)}", ", ".join(unknown))
+        near = list(dict.fromkeys(n for wrong in unknown for n in get_close_matches(wrong, known, 3, 0.5)))
+        raise ConfigError(f"diagnosis.{key}", f"of {first_of([*near, *(n for n in known if n not in near)], _LISTED)}",
+                          ", ".join(unknown), f"do you mean {' or '.join(near)}?" if near else None)

@@ -55,9 +55,10 @@ class Diagnosis:
     cut_short: bool = False
     model_error: float = 1.0
 
-    def remarked(self, *sentences):
-        """The same with further ``sentences`` among the reasons of its decision."""
-        return replace(self, decision=replace(self.decision, reasons=(*self.decision.reasons, *sentences)))
+    def remarked(self, *sentences, first=False):
+        """The same with further ``sentences`` among the reasons of its decision, at their end or ``first``."""
+        reasons = (*sentences, *self.decision.reasons) if first else (*self.decision.reasons, *sentences)
+        return replace(self, decision=replace(self.decision, reasons=reasons))
 
     @property
     def nominal(self):

@@ -81,7 +81,7 @@ class Asked:
             single = single.remarked(f"whether several laws act together could not be weighed: {sentence_of(error)}")
         if spent() and single.base is None and not single.cut_short:
             single = single.remarked("whether several laws act together was not tried to the end, as the time was"
-                                     " spent; allow more by diagnosis.time")
+                                     " spent; allow more by diagnosis.time", first=True)
         with within(np.inf):        # what it names is examined in any case
             return self.of_its_form(single)
 

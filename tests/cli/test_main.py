@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import stages
+from pipeline.cli.main import _headline
 from tests import commands
 
 
@@ -134,3 +135,8 @@ def test_public_data_are_listed_and_their_form_is_told(tmp_path):
     assert "channels/NAME" in brakechain("data", "format").stdout
     done = brakechain("data", "path", "none")
     assert done.returncode == 2 and "an unregistered name" in done.stderr
+
+
+def test_a_run_ends_with_what_the_first_screen_says(tmp_path):
+    (tmp_path / "verdict.json").write_text('{"headline": "Coulomb is missing; takes 97\\u202f%"}', encoding="utf-8")
+    assert _headline(tmp_path / "verdict.json") == "verdict: Coulomb is missing; takes 97 %"

@@ -86,7 +86,7 @@ def test_values_that_differ_between_runs_hide_nothing_and_are_no_missing_effect(
     ({"priors": {"compliant_arm.stiffness": {}}}, "diagnosis.priors"),
     ({"next": {"temperature": ["20 K"]}}, "diagnosis.next.temperature"),
     ({"held_out": ["level_9"]}, "diagnosis.held_out"), ({"effects": ["magic"]}, "diagnosis.effects"),
-    ({"parameters": {"joints.mount.stifness": {}}}, "diagnosis.parameters"),
+    ({"parameters": {"joints.mount.stifness": {}}}, "diagnosis.parameters.*do you mean joints.mount.stiffness"),
     ({"noise": {"std": {"x": "1 kg"}}}, "diagnosis.noise.std.x"),
     ({"noise": {"std": {"y": "1 mm"}}}, "noise.std.*y"), ({"noise": {}}, "noise"),
     ({"held_out": ["level_1", "level_2", "level_3", "level_4"]}, "at least one run to fit")])

@@ -8,6 +8,8 @@ from pipeline.contract.errors import first_of
 
 #: share of samples at the end of a range beyond which it clips; step over standard deviation of a coarse channel
 _CLIPPED, _COARSE = 0.01, 0.1
+#: share of such samples that are one stretch where a body rests at the end of its range
+_ON_END = 0.8
 #: correlation of copies; samples and periods of the slowest motion that a run needs; samples a period
 _COPY, _FEW, _PERIODS, _A_PERIOD = 0.99999, 50, 3, 8
 #: runs that rules over operating points need
@@ -53,8 +55,10 @@ def _of_channel(name, runs):
                for r, values in parts.items() if np.ptp(values) and len(np.unique(values)) > 20}
     worst = max(clipped, key=clipped.get, default=None)
     if worst is not None and clipped[worst] > _CLIPPED and _flat(parts[worst]):
-        yield (f"{name} stands at the end of its range in {100 * clipped[worst]:.0f} % of the samples of {worst}: it"
-               " clips, or a stop holds it; state bench.channels limit, or leave that out")
+        share = f"{name} stands at the end of its range in {100 * clipped[worst]:.0f} % of the samples of {worst}"
+        yield (f"{share}, on end: it rests there, where a run tells nothing, or a stop holds it; cut that off"
+               if _rests(parts[worst]) else
+               f"{share}: it clips, or a stop holds it; state bench.channels limit, or leave that out")
     coarse = {r: _step(values) / values.std() for r, values in parts.items() if np.ptp(values)}
     worst = max(coarse, key=coarse.get, default=None)
     if worst is not None and coarse[worst] > _COARSE:
@@ -70,6 +74,13 @@ def _of_channel(name, runs):
 def _flat(values):
     """Whether the end of the range is held for three samples on end, as clipping does and a peak does not."""
     return any(np.any(end[:-2] & end[1:-1] & end[2:]) for end in (values == values.max(), values == values.min()))
+
+
+def _rests(values):
+    """Whether nearly all samples at the end of the range are one stretch."""
+    end = max((values == values.max(), values == values.min()), key=np.count_nonzero)
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], end, [0])).astype(int)))
+    return max(edges[1::2] - edges[::2]) > _ON_END * np.count_nonzero(end)
 
 
 def _step(values):

@@ -26,6 +26,7 @@ def test_a_sound_record_raises_no_doubt():
 def test_each_fault_has_its_sentence():
     assert "x never changes" in told(x=np.ones(2000))
     assert "it clips" in told(x=np.clip(wave(), -0.008, 0.008))
+    assert "it rests there" in told(x=np.append(wave()[:-300], np.full(300, 0.02)))
     assert "has steps of" in told(x=np.round(wave(), 2) + 0.0)
     assert "x and y are one another's copy" in told(x=wave(), y=wave())
     assert "is its unit right" in told(x=1e5 * wave())
