@@ -1,7 +1,7 @@
 """Pairs of laws: found together or one after the other, named only where the second is more than an error of the first.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import tanh
 from types import SimpleNamespace
 
@@ -98,3 +98,59 @@ def test_values_within_their_priors_ask_for_no_second_effect():
     told = diagnose(*odd_values(0.4), asked)
     assert told.decision.verdict == "missing" and told.base is None
     assert [c.name for c in told.decision.named] == ["effect_1"]
+
+
+@dataclass(frozen=True)
+class Told:
+    """What stands for a Diagnosis: its verdict, whether it is of several laws, whether it leaves nothing."""
+
+    verdict: str
+    base: object = None
+    leaves_nothing: bool = False
+    combinations: tuple = ()
+
+    null = None
+    refits = SimpleNamespace(refitter=SimpleNamespace(catalogue=()))
+
+    @property
+    def decision(self):
+        return SimpleNamespace(verdict=self.verdict)
+
+    @property
+    def weighed(self):
+        return (SimpleNamespace(fit=SimpleNamespace(reaches_noise=lambda _: self.leaves_nothing),
+                                statistics=SimpleNamespace(unexplained=0.0, held_out_left=None)),)
+
+
+WHOLE, PART, NONE = Told("missing", 1, True), Told("missing", 1), Told("unknown")
+
+
+@pytest.mark.parametrize("single, pair, along, best", [
+    ("unknown", WHOLE, None, WHOLE), ("unknown", PART, WHOLE, WHOLE), ("unknown", PART, NONE, PART),
+    ("unknown", NONE, NONE, NONE), ("tie", Told("tie"), None, Told("tie")), ("tie", PART, None, PART)])
+def test_a_pair_of_the_race_stands_where_it_leaves_nothing_or_no_set_is_named(monkeypatch, single, pair, along, best):
+    """A set along motions may hold a third law; a tie of single laws is asked for a second one, and for no more."""
+    tried = []
+    monkeypatch.setattr(pairs, "raced", lambda asked, single: pair)
+    monkeypatch.setattr(Asked, "along", lambda self, single, motions: (tried.append(motions), along)[1])
+    assert Asked(None, {}, (), Settings(), map).several(Told(single), "motions") == best
+    assert bool(tried) == (along is not None)
+
+
+@dataclass(frozen=True)
+class Asking:
+    """What stands for Asked: of the names that a race yields, ``right`` is named."""
+
+    catalogue: tuple = ()
+    problem, budget, settings, fan_out, weighed = None, None, None, None, []
+
+    def together(self, single, pair):
+        self.weighed.append(pair)
+        return PART if pair == "right" else single
+
+
+def test_a_race_is_asked_for_others_until_two_laws_are_named(monkeypatch):
+    monkeypatch.setattr(pairs, "race", lambda *_: (SimpleNamespace(selected=lambda *_, name=name: name)
+                                                   for name in ("wrong", "right", "late")))
+    assert pairs.raced(Asking(), NONE) == PART and Asking.weighed == ["wrong", "right"]
+    assert pairs.raced(Asking(), PART) == PART and len(Asking.weighed) == 2, "its second law is looked for beside it"
