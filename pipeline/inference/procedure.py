@@ -72,7 +72,7 @@ class Asked:
         try:
             open_ = single.decision.verdict in ("unknown", "tie", "missing") and len(self.problem.runs) > 1
             if open_ and not (single.cut_short or self.alone):
-                single = self.several(single, motions)
+                single = self.of_several(single, motions)
             if self.settings.tied_seconds and single.decision.verdict == "unknown":
                 return self._tied_pair(single)
         except TimeSpentError:
@@ -85,7 +85,7 @@ class Asked:
         with within(np.inf):        # what it names is examined in any case
             return self.of_its_form(single)
 
-    def several(self, single, motions):
+    def of_several(self, single, motions):
         """The Diagnosis of several laws: of two simple ones that leave nothing, of those along Motions, of pairs, else
         the ``single`` one by one law."""
         pair = pairs.raced(self, single)

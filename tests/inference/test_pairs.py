@@ -133,7 +133,7 @@ def test_a_pair_of_the_race_stands_where_it_leaves_nothing_or_no_set_is_named(mo
     tried = []
     monkeypatch.setattr(pairs, "raced", lambda asked, single: pair)
     monkeypatch.setattr(Asked, "along", lambda self, single, motions: (tried.append(motions), along)[1])
-    assert Asked(None, {}, (), Settings(), map).several(Told(single), "motions") == best
+    assert Asked(None, {}, (), Settings(), map).of_several(Told(single), "motions") == best
     assert bool(tried) == (along is not None)
 
 
