@@ -101,7 +101,7 @@ def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_c
     found = diagnosis("unknown", leading=[1], leading_takes=[0.81], leading_stays=[0.19],
                       noise_verdict=["unknown", "missing"], noise_named=["", "coulomb at guide"])
     assert headline(found)[0] == ("Leading explanation, not confirmed: coulomb at guide; takes 81\u202f% of the excess"
-                                  " error")
+                                  " error on held-out runs")
     told = dict(note(found))
     assert "takes 81\u202f% of the excess error on held-out runs, and 19\u202f% stays" in told["What is missing"]
     assert "it would be missing (coulomb at guide) at 2 times what is known of it" in told["How certain"]

@@ -214,7 +214,8 @@ def _among(survivors, rivals, runs, rules):
     names = ", ".join(c.name for c in named)
     if not any(c.unexplained <= rules.unexplained for c in named):
         left = min(c.unexplained for c in named)
-        return Decision("unknown", (), (f"{names} would help but leaves {left:.0%} of the excess error",))
+        return Decision("unknown", (), (f"{names} would help but leaves {left:.0%} of the excess error on"
+                                       " the fitted runs",))
     if runs.runs < rules.naming_runs:
         return Decision("tie", tuple(named), (f"{names} explains the only run; one run names nothing",))
     if len(named) > 1:

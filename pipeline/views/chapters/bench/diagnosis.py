@@ -6,6 +6,7 @@ from pipeline.views.chapters.bench.hypotheses import (
     combination_table,
     effect_at,
     hypothesis_table,
+    judged_by,
     leading_set,
     named_effects,
     of_one_family,
@@ -97,7 +98,7 @@ def _unknown(product):
             f"Unmodelled physics{_at(product)}; the fit of {effect_at(product, doubted)} cannot be relied on"
     leading, takes = product.leading, percent(product.leading_takes[0], 2)
     what = of_one_family(product, leading) or effect_at(product, leading[0])
-    return f"Leading explanation, not confirmed: {what}; takes {takes} of the excess error"
+    return f"Leading explanation, not confirmed: {what}; takes {takes} {judged_by(product)}"
 
 
 def _leading(product):
@@ -112,10 +113,8 @@ def _leading(product):
             f"The most probable explanation, {effect_at(product, doubted)}, cannot be relied on:"
             f" {product.objection[doubted]}.")
     k, *family = product.leading
-    judged = "of the excess error on held-out runs" if any(r.held_out for r in product.runs.values()) else \
-        "of the excess error"
     return (f"The leading explanation is {effect_at(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
-            f" probability): it takes {percent(product.leading_takes[0], 2)} {judged}, and"
+            f" probability): it takes {percent(product.leading_takes[0], 2)} {judged_by(product)}, and"
             f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise."
             + (f" Of its family, {_listed([effect_at(product, each) for each in family])} would take nearly as much:"
                " the form of the law is open." if family else ""))

@@ -33,6 +33,11 @@ def named_effects(product):
     return (", and " if len(product.named) > 1 else " and ").join(filter(None, (*parts, named)))
 
 
+def judged_by(product):
+    """Of what the shares are that a law takes, in words."""
+    return "of the excess error" + " on held-out runs" * any(r.held_out for r in product.runs.values())
+
+
 def leading_set(product, whole=False):
     """The laws that lead together, and what they leave; ``whole``: as sentences with their values and why they are not
     named."""
