@@ -1,7 +1,6 @@
 """The race of pairs: two laws are found that neither alone explains, nothing where no two simple laws do."""
 
-from dataclasses import replace
-from math import copysign, sin, tanh
+from math import sin, tanh
 from types import SimpleNamespace
 
 import numpy as np
@@ -24,32 +23,20 @@ def raced(extra, noise=0.1, catalogue=CATALOGUE):
     return single, next(race(problem, noises, single, catalogue, settings, map), None)
 
 
-@pytest.mark.parametrize("extra, names", [
-    (lambda t, x, v: 1.5e4 * x**3 + 1.5 * tanh(v / 0.005), ("cubic", "coulomb")),
-    (lambda t, x, v: 1.5e4 * x**3 + 3.0 * v * abs(v), ("cubic", "air"))])
-def test_two_laws_neither_of_which_explains_enough_win_and_begin_near_their_values(extra, names):
-    single, pair = raced(extra)
-    assert single.decision.verdict == "unknown" and pair.names == names
+def test_two_laws_neither_of_which_explains_enough_win_and_begin_near_their_values():
+    single, pair = raced(lambda t, x, v: 1.5e4 * x**3 + 1.5 * tanh(v / 0.005))
+    assert single.decision.verdict == "unknown" and pair.names == ("cubic", "coulomb")
     assert pair.fit.objective < 1.1 * pair.fit.counts.sum()
     selection = pair.selected(single.null, CATALOGUE)
-    order = [[c.name for c in CATALOGUE].index(name) for name in names]
-    assert list(selection.members) == order and not selection.judged
+    assert list(selection.members) == [[c.name for c in CATALOGUE].index(name) for name in pair.names]
+    assert not selection.judged
     np.testing.assert_array_equal(selection.start(selection.members), pair.fit.latent)
     assert pair.fit.values["cubic_stiffness"] == pytest.approx(1.5e4, rel=0.1)
 
 
-@pytest.mark.parametrize("extra, noise", [
-    (lambda t, x, v: 25.0 * sin(9.0 * t) * x, 0.1),
-    (lambda t, x, v: 300.0 * max(0.0, abs(x) - 0.015) * copysign(1.0, x), 0.01)])
-def test_no_pair_wins_where_no_two_laws_explain_enough(extra, noise):
-    single, pair = raced(extra, noise)
+def test_no_pair_wins_where_no_two_laws_explain_enough():
+    single, pair = raced(lambda t, x, v: 25.0 * sin(9.0 * t) * x)
     assert single.decision.verdict == "unknown" and pair is None
-
-
-def test_elaborate_laws_do_not_take_part():
-    catalogue = tuple(replace(c, elaborate=c.name == "coulomb") for c in CATALOGUE)
-    _, pair = raced(lambda t, x, v: 1.5e4 * x**3 + 1.5 * tanh(v / 0.005), catalogue=catalogue)
-    assert pair is None or "coulomb" not in pair.names
 
 
 def weighed(name, gain, law="", **more):
