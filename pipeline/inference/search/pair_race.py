@@ -57,9 +57,10 @@ def race(problem, budget, single, catalogue, settings, fan_out):
     """Yields the Pairs of the ``catalogue`` that come down furthest beside what the Diagnosis ``single`` has found and
     may leave as little as two laws may: at once where one reaches the noise, as no other comes lower, else in the end.
 
-    The race goes on only where it is asked for another.
+    The race goes on only where it is asked for another. A fault of a sensor or the solver beside a law is looked for
+    where that is taken as known.
     """
-    simple = tuple(c for c in catalogue if not c.elaborate)
+    simple = tuple(c for c in catalogue if c.kind == "physics" and not c.elaborate)
     enough, pairs, told = several_laws.hoped(single.null, settings.rules), [], []
     for first in firsts(single, settings.rules):
         found = [pair for pair in _beside(problem, budget, single.null, simple, settings, fan_out, first)

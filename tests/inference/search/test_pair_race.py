@@ -1,5 +1,6 @@
 """The race of pairs: two laws are found that neither alone explains, nothing where no two simple laws do."""
 
+from dataclasses import replace
 from math import sin, tanh
 from types import SimpleNamespace
 
@@ -11,6 +12,7 @@ from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.procedure import Asked
 from pipeline.inference.rules import DEFAULTS
+from pipeline.inference.search import pair_race
 from pipeline.inference.search.pair_race import firsts, race
 from tests.inference.oscillator import CATALOGUE, bench
 
@@ -37,6 +39,16 @@ def test_two_laws_neither_of_which_explains_enough_win_and_begin_near_their_valu
 def test_no_pair_wins_where_no_two_laws_explain_enough():
     single, pair = raced(lambda t, x, v: 25.0 * sin(9.0 * t) * x)
     assert single.decision.verdict == "unknown" and pair is None
+
+
+def test_only_simple_laws_of_physics_run(monkeypatch):
+    asked = []
+    monkeypatch.setattr(pair_race, "firsts", lambda *_: ["first"])
+    monkeypatch.setattr(pair_race, "_beside", lambda problem, budget, null, laws, *_: asked.extend(laws) or [])
+    fit = SimpleNamespace(counts=np.array([100]), chi_square=np.array([300.0]))
+    catalogue = tuple(replace(c, elaborate=c.name == "coulomb") for c in CATALOGUE)
+    assert not list(race(None, None, SimpleNamespace(null=fit), catalogue, Settings(), map))
+    assert {c.name for c in CATALOGUE} - {c.name for c in asked} == {"coulomb", "sensor_gain"}
 
 
 def weighed(name, gain, law="", **more):
