@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import partial
 
 from pipeline.case_models import corrections
 from pipeline.case_models.effect_block import parameters
@@ -80,12 +81,16 @@ def stated_noise(settings, units):
 
 
 def nominal_parameters(bench, settings, runs=()):
-    """Parameters that the case says may be wrong, about the values of the bench, and how they differ between ``runs``
-    (name, ...). ConfigError for names that there are not, and for differences where runs are not compared one by one.
-    """
-    units = corrections.known(bench)
+    """``stated_parameters`` of a Bench."""
+    return stated_parameters(settings, corrections.known(bench), partial(corrections.nominal, bench), runs)
+
+
+def stated_parameters(settings, units, nominal_of, runs=()):
+    """Parameters that the case says may be wrong, of {name: unit} about ``nominal_of(name)``, and how they differ
+    between ``runs`` (name, ...). ConfigError for names that there are not, and for differences where samples of runs
+    are not compared."""
     check_names("parameters", settings.parameters, units)
-    shared = [parameter(name, units[name], corrections.nominal(bench, name), prior, f"diagnosis.parameters.{name}")
+    shared = [parameter(name, units[name], nominal_of(name), prior, f"diagnosis.parameters.{name}")
               for name, prior in settings.parameters.items()]
     return shared + [_of_run(p, run, size) for p in shared
                      if (size := _between_runs(p, settings.parameters[p.name], runs)) for run in runs]

@@ -15,9 +15,9 @@ from pipeline.case_models.rough.pair import Settings, offsets, rubbing, shifted
 from pipeline.contract import ConfigError, restored
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.features.worn_faces import FRICTION, UNITS, WEAR, observed, rubbed, shown
-from pipeline.diagnosis.forced_response import check_names, chosen
+from pipeline.diagnosis.forced_response import check_names, chosen, stated_parameters
 from pipeline.diagnosis.problem import DiagnosisProblem, label, nominal, parameter_name
-from pipeline.diagnosis.settings import parameter, procedure
+from pipeline.diagnosis.settings import procedure
 from pipeline.diagnosis.signals.forward_model import candidates, terms
 from pipeline.diagnosis.signals.localisation import INTERPOLATION, MAP, Axes
 from pipeline.effects import CATALOGUE
@@ -92,7 +92,7 @@ def rough_pair_problem(recording, surface, micro, friction_map, effects, setting
     forward = Predicted(bare, table, drags, _given(section), stated)
     error = float(np.hypot(settings.rubbing.model_error, table.scatter))
     observations = tuple(observed(run, name in settings.held_out, error) for name, run in runs.items())
-    problem = Problem(observations, forward, nominal(_nominal_parameters(section, settings)))
+    problem = Problem(observations, forward, nominal(stated_parameters(settings, UNIT_OF, _given(section).__getitem__)))
     forward = replace(forward, change=_read_off(problem, friction_map))
     problem = replace(problem, predict=forward)
     check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
@@ -116,17 +116,6 @@ def _given(section):
         return float(value)
 
     return {name: number(name) for name in UNIT_OF}
-
-
-def _nominal_parameters(section, settings):
-    check_names("parameters", settings.parameters, UNIT_OF)
-    given = _given(section)
-    for name, prior in settings.parameters.items():
-        if prior.between_runs is not None:
-            raise ConfigError(f"diagnosis.parameters.{name}.between_runs", "none, as no samples of runs are compared"
-                              " here", str(prior.between_runs), "leave it out")
-    return [parameter(name, UNIT_OF[name], given[name], prior, f"diagnosis.parameters.{name}")
-            for name, prior in settings.parameters.items()]
 
 
 def _grid(rubbing, drags, spot_runs):

@@ -22,6 +22,11 @@ class Prior(Section):
     std: str | float | None = option(None, "normal: standard deviation; half_normal: root mean square")
     low: str | float | None = option(None, "uniform: lower end")
     high: str | float | None = option(None, "uniform: upper end")
+
+
+class NominalPrior(Prior):
+    """The same of a value of the nominal model."""
+
     between_runs: str | float | None = option(None, "standard deviation by which the value differs from run to run, as"
                                                     " after reassembly or with temperature: log_normal: relative, 0.02"
                                                     " = 2 %; else with its unit; none = it is the same in all")
@@ -100,8 +105,9 @@ class Settings(Section):
         " and worn faces against micro_friction")
     rubbing: SpotRuns = option(SpotRuns(), "forward friction: the runs of the rough pair")
     lines: ModeTable | Harmonics | SquealLines | None = option(None, "forward lines: which lists are compared, and how")
-    parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections;"
-                                                " of an effect that the case states: coulomb@guide.force")
+    parameters: dict[str, NominalPrior] = option({}, "nominal values that may be wrong, by name as in"
+                                                     " bench.corrections; of an effect that the case states:"
+                                                     " coulomb@guide.force")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
     without: tuple[str, ...] = option((), "effects that are not weighed, because they are known not to be there")

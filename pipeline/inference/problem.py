@@ -101,7 +101,7 @@ class Hypothesis:
             if p.of and p.run == run:
                 factor = p.prior.support[0] >= 0
                 own[p.of] = values[p.of] * values[p.name] if factor else values[p.of] + values[p.name]
-        return values | own
+        return values | own if own else values
 
     @property
     def shared(self):

@@ -84,6 +84,7 @@ def test_values_that_differ_between_runs_hide_nothing_and_are_no_missing_effect(
     ({"parameters": {"joints.mount.stiffness": {"between_runs": "1 kg"}}}, "stiffness.between_runs"),
     ({"parameters": {"joints.mount.stiffness": {"between_runs": 2.0}}}, "stiffness.between_runs.*share"),
     ({"priors": {"compliant_arm.stiffness": {}}}, "diagnosis.priors"),
+    ({"priors": {"coulomb.force": {"between_runs": 0.1}}}, "diagnosis.priors.coulomb.force.between_runs"),
     ({"next": {"temperature": ["20 K"]}}, "diagnosis.next.temperature"),
     ({"held_out": ["level_9"]}, "diagnosis.held_out"), ({"effects": ["magic"]}, "diagnosis.effects"),
     ({"parameters": {"joints.mount.stifness": {}}}, "diagnosis.parameters.*do you mean joints.mount.stiffness"),

@@ -5,7 +5,7 @@ Truth: scipy's DOP853 with dense tolerance. Model: Runge-Kutta 4 in numba. Chann
 
 from dataclasses import replace
 from functools import cache, lru_cache
-from math import pi, sin
+from math import pi, sin, tanh
 
 import numpy as np
 from numba import njit
@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
+from pipeline.inference.rules import DEFAULTS
 
 RATE, SAMPLES, SUBSTEPS = 200.0, 2000, 4
 STIFFNESS, DAMPING = 400.0, 1.2         # of unit mass [N/m, N s/m]
@@ -118,6 +119,16 @@ def bench(seed, noise=0.01, held_out=True, **of_truth):
         runs.append(Observed(f"run_{k + 1}", conditions, ("displacement", "velocity"), samples, RATE, noise_std=std,
                              held_out=k == 3))
     return Problem(tuple(runs), predict, NOMINAL)
+
+
+def both(t, x, v):
+    """A cubic spring and dry friction, N, of which the first alone leaves little."""
+    return 1.5e4 * x**3 + 0.6 * tanh(v / 0.005)
+
+
+def changed(group, **values):
+    """The default rules with other ``values`` of a group."""
+    return replace(DEFAULTS, **{group: replace(getattr(DEFAULTS, group), **values)})
 
 
 def alone(problem, count=1):

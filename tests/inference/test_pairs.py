@@ -11,18 +11,8 @@ from pipeline.inference import pairs
 from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.procedure import Asked, diagnose
-from pipeline.inference.rules import DEFAULTS
 from tests.inference import linear
-from tests.inference.oscillator import CATALOGUE, bench
-
-
-def both(t, x, v):
-    return 1.5e4 * x**3 + 0.6 * tanh(v / 0.005)
-
-
-def changed(group, **values):
-    """The rules with other ``values`` of a group."""
-    return replace(DEFAULTS, **{group: replace(getattr(DEFAULTS, group), **values)})
+from tests.inference.oscillator import CATALOGUE, bench, both, changed
 
 
 def test_two_laws_neither_of_which_explains_enough_are_named_together():

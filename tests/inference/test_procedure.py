@@ -22,7 +22,7 @@ from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import score_screen
 from pipeline.inference.search.selection import Selection, where_felt
 from tests.inference import linear
-from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, predict_with_lag
+from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, changed, predict_with_lag
 
 
 def cubic(t, x, v):
@@ -39,15 +39,6 @@ def modulated(t, x, v):
 
 def gap(t, x, v):
     return 300.0 * max(0.0, abs(x) - 0.015) * copysign(1.0, x)
-
-
-def both(t, x, v):
-    return cubic(t, x, v) + coulomb(t, x, v)
-
-
-def changed(group, **values):
-    """The rules with other ``values`` of a group."""
-    return replace(DEFAULTS, **{group: replace(getattr(DEFAULTS, group), **values)})
 
 
 TRUTHS = [

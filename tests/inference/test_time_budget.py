@@ -12,8 +12,8 @@ from pipeline.inference import time_budget
 from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.procedure import diagnose
-from tests.inference.oscillator import CATALOGUE, bench
-from tests.inference.test_procedure import both, coulomb
+from tests.inference.oscillator import CATALOGUE, bench, both
+from tests.inference.test_procedure import coulomb
 
 
 class Counted:

@@ -3,6 +3,7 @@
 from itertools import combinations
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import first_of
 
@@ -79,8 +80,8 @@ def _flat(values):
 def _rests(values):
     """Whether nearly all samples at the end of the range are one stretch."""
     end = max((values == values.max(), values == values.min()), key=np.count_nonzero)
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], end, [0])).astype(int)))
-    return max(edges[1::2] - edges[::2]) > _ON_END * np.count_nonzero(end)
+    lengths = np.bincount(scipy.ndimage.label(end)[0])[1:]
+    return lengths.max() > _ON_END * lengths.sum()
 
 
 def _step(values):

@@ -110,15 +110,16 @@ def as_json(product):
     """The verdict for machines; the schema is that of SCHEMA."""
     named = set(_completing(product)) | set(product.named)
     ordered = sorted(range(len(product.hypothesis)), key=lambda k: -product.posterior[k])
+    combinations = as_rows(product)
     document = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "family": product.family.item(), "grade": _grade(product), "model_error": float(product.model_error),
         "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
                     zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
-        "leading_set": [as_rows(product)[k] for k in product.leading_set],
+        "leading_set": [combinations[k] for k in product.leading_set],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
-        "combinations": as_rows(product),
+        "combinations": combinations,
         "not_judged": [_not_judged(product, k) for k in range(len(product.hypothesis))
                        if product.objection[k] and not product.refitted[k]],
         "location": _location(product),

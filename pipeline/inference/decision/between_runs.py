@@ -31,9 +31,11 @@ def told(problem, null, uncertainty):
     p_value = scipy.stats.chi2.sf(np.sum(weight * np.square(values - mean), axis=0), len(values) - 1)
     differing = [_difference(hypothesis.parameters[k], column) for k, column, p in
                  zip(shared, np.transpose(values), p_value, strict=True) if p < _DIFFERS / len(shared)]
-    return differing and ("each run alone is what the nominal model predicts, at values that differ from run to run: "
-                          + ", ".join(differing) + "; if reassembly, temperature or wear may do that, state it by"
-                          " diagnosis.parameters.NAME.between_runs") or ""
+    if not differing:
+        return ""
+    return (f"each run alone is what the nominal model predicts, at values that differ from run to run: "
+            f"{', '.join(differing)}; if reassembly, temperature or wear may do that, state it by"
+            " diagnosis.parameters.NAME.between_runs")
 
 
 def _difference(parameter, latent):

@@ -195,12 +195,12 @@ def linearised(problem, noises, hypothesis, latent, runs, known=()):
     try:
         return _linearised(problem, noises, hypothesis, latent, runs, known)
     except BrakechainError as error:
-        if not shortened(error, hypothesis):
+        if not worth_halving(error, hypothesis):
             raise
     return linearised(problem, noises, replace(hypothesis, halvings=hypothesis.halvings + 1), latent, runs, known)
 
 
-def shortened(error, hypothesis):
+def worth_halving(error, hypothesis):
     """Whether a hypothesis whose forward model failed with an ``error`` is worth a try with steps half as long."""
     return error.shorter_step and hypothesis.halvings < _HALVED
 

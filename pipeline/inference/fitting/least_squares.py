@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed, shortened
+from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed, worth_halving
 from pipeline.inference.fitting.steps import along_valley, damped_step, newton_step, within
 from pipeline.inference.time_budget import TimeSpentError, spent
 
@@ -68,7 +68,7 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     except TimeSpentError:
         return state
     except BrakechainError as error:
-        if not shortened(error, begun.hypothesis):
+        if not worth_halving(error, begun.hypothesis):
             raise
     finer = replace(begun.hypothesis, halvings=begun.hypothesis.halvings + 1)
     return continued(problem, linearised(problem, begun.noises, finer, begun.latent, begun.runs), iterations, enough,
