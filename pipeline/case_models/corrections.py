@@ -2,6 +2,7 @@
 
     joints.NAME.stiffness  N/m          inputs.NAME.gain    1       channels.NAME.gain    1
     joints.NAME.damping    N s/m        inputs.NAME.offset  N       channels.NAME.delay   s
+    loads.JOINT            N            channels.NAME.offset, and .drift per s, in the unit of the channel
     bodies.NAME.mass       1 (factor)   friction            1 (factor)
     bodies.NAME.stiffness  1 (factor)   contact.stiffness   1 (factor)     contact.damping  N s/m
     bodies.NAME.frequency  1 (factor)   friction.stiffness  1 (factor)     bodies.NAME.damping  1 (factor)
@@ -9,7 +10,8 @@
 
 Factors are of the given model; ``frequency`` is that of all modes of a body held by the joints that touch nothing else,
 at the same mass, and ``damping`` of body and those joints; ``modal_mass`` is of mass, damping and stiffness of body and
-those joints, which keep their frequencies; ``friction.stiffness`` is that of a contact before it slides.
+those joints, which keep their frequencies; ``friction.stiffness`` is that of a contact before it slides. ``loads`` are
+constant forces, as of a weight or a cable, that pull the ends of a joint apart.
 Bodies of one coordinate also have masses.NAME in kg. What acts about an axis has N m/rad, N m s/rad, N m and kg m^2.
 Effects that the case states have EFFECT@LOCATION.PARAMETER, as in coulomb@guide.force.
 """
@@ -24,6 +26,7 @@ import numpy as np
 from pipeline.case_models.effect_block import MARK, restated
 from pipeline.contract import ConfigError
 from pipeline.contract.units import TURNED, to_si
+from pipeline.effects.typical import JOINT, locations
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.time_stepping.elements import Element, Wave
 from pipeline.physics.time_stepping.simulate import Penalty
@@ -39,6 +42,7 @@ def known(bench):
         units["friction.stiffness"] = "1"
     for name in model.joints.name:
         units |= {f"joints.{name}.stiffness": "N/m", f"joints.{name}.damping": "N s/m"}
+    units |= {f"loads.{name}": "N" for name in locations(JOINT, bench)}
     for index, name in enumerate(model.body_name):
         units |= {f"bodies.{name}.{what}": "1" for what in ("mass", "stiffness", "frequency", "damping",
                                                           "modal_mass")}
@@ -47,8 +51,10 @@ def known(bench):
     for name in model.input_name:
         units |= {f"inputs.{name}.gain": "1", f"inputs.{name}.offset": "N"}
     for channel in bench.channels:
-        units |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s"}
-    turned = {name for name in units if name in model.turning or name.rpartition(".")[0] in model.turning}
+        unit = channel.measurand.unit
+        units |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s",
+                  f"channels.{channel.name}.offset": unit, f"channels.{channel.name}.drift": f"{unit}/s"}
+    turned = {name for name in units if _turns(name) in model.turning}
     stated = {} if bench.stated is None else {name: unit for name, (_, unit) in bench.stated.numbers().items()}
     return {name: TURNED.get(unit, unit) if name in turned else unit for name, unit in units.items()} | stated
 
@@ -107,10 +113,16 @@ def corrected(bench, values):
     return bench
 
 
+def _turns(name):
+    """What must act about an axis for a number of this name to do so, as ``turning`` of a SlidingModel has it."""
+    kind, owner, _ = _steps(name)
+    return f"joints.{owner}" if kind == "loads" else f"{kind}.{owner}"
+
+
 def _steps(name):
     """(kind, owner, what) of a name; owners may hold dots."""
     kind, _, rest = name.partition(".")
-    if kind in ("friction", "masses", "contact"):
+    if kind in ("friction", "masses", "contact", "loads"):
         return kind, rest, rest
     owner, _, what = rest.rpartition(".")
     return kind, owner, what
@@ -169,11 +181,19 @@ def _input(bench, owner, what, value):
     model = bench.model
     row = model.input_name.index(owner)
     if what == "offset":
-        force = Element(f"offset {owner}", model.input_rows[row], Wave(1.0, amplitude=value))
-        return bench.with_elements(force) if value else bench
+        return _pushed(bench, f"offset {owner}", model.input_rows[row], value)
     rows = np.array(model.input_rows)
     rows[row] *= value
     return _with_model(bench, input_rows=rows)
+
+
+def _load(bench, owner, what, value):
+    return _pushed(bench, f"load {owner}", bench.joint(owner)[0], value)
+
+
+def _pushed(bench, name, row, value):
+    """The bench with a constant force ``value`` N along ``row`` (n,)."""
+    return bench.with_elements(Element(name, row, Wave(1.0, amplitude=value))) if value else bench
 
 
 def _channel(bench, owner, what, value):
@@ -198,5 +218,5 @@ def _with_model(bench, **change):
     return replace(bench, model=replace(bench.model, **change))
 
 
-_CHANGES = {"masses": _mass, "bodies": _body, "inputs": _input, "channels": _channel,
+_CHANGES = {"masses": _mass, "bodies": _body, "inputs": _input, "loads": _load, "channels": _channel,
             "friction": _friction, "contact": _contact}

@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.case_models.force_balance import balance, begun, channel_names, refuse_unforced
 from pipeline.contract import ConfigError
+from pipeline.diagnosis import nuisances
 from pipeline.diagnosis.experiment_design.next_motion import planned_motions
 from pipeline.diagnosis.experiment_design.next_run import altered
 from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters, stated_noise
@@ -106,6 +107,7 @@ def force_balance_problem(bench, recorded, settings, equation):
         DescribeBalance(bench, balances, problem, noises, solver.rules, seed=settings.seed),
         settings.latent_force.predict, next_runs=tuple(observed(p.shown.seen) for p in planned),
         noise_levels=settings.noise.levels, motions=forward,
+        nuisances=nuisances.declared(bench, [r.run for r in training], settings, training),
         remarks=(*left_out.values(), *doubts(recorded, bench.model.input_name), *refused))
 
 

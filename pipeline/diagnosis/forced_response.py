@@ -9,6 +9,7 @@ from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.errors import first_of
 from pipeline.contract.units import to_si
+from pipeline.diagnosis import nuisances
 from pipeline.diagnosis.experiment_design.next_run import feasible
 from pipeline.diagnosis.problem import DiagnosisProblem, nominal, parameter_name
 from pipeline.diagnosis.settings import parameter, procedure
@@ -70,6 +71,7 @@ def forced_problem(bench, recorded, settings, remarks=()):
         next_runs=tuple(f.observed for f in planned), noise_levels=settings.noise.levels,
         step=min(run.step(bench.step) for run in runs.values()),
         remarks=(*remarks, *doubts(recorded, bench.model.input_name), *refused),
+        nuisances=nuisances.declared(bench, [record.run for record in training], settings, training),
         motions=MeasuredMotions(bench, runs, noises) if all(
             measured(bench, o.channels) for o in observations) else None)
 
@@ -125,7 +127,7 @@ def chosen(settings):
     check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     check_names("effects", settings.effects, names)
     check_names("without", settings.without, names)
-    return tuple(e for e in CATALOGUE if (not settings.effects or e.name in settings.effects)
+    return tuple(e for e in CATALOGUE if (e.name in settings.effects if settings.effects else e.weighed)
                  and e.name not in settings.without)
 
 

@@ -64,6 +64,7 @@ class DiagnosisProblem:
     ``units`` {channel: SI unit}. ``latent`` describes a missing force, which predicts held-out runs where
     ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
     what is changed, each with its budget. ``noise_levels``: multiples of the noise at which the verdict is told too.
+    ``nuisances``: hidden values (Hypotheses of parameters alone) that the case declares.
     ``motions``: measured ones of all coordinates, along which several laws are selected. ``step``: time step of the
     model in s, 0 where it does not step through time. ``remarks``: sentences on what could not be used of the case.
     """
@@ -83,6 +84,7 @@ class DiagnosisProblem:
     motions: Motions | None = None
     step: float = 0.0
     remarks: tuple = ()
+    nuisances: tuple = ()
 
     def __post_init__(self):
         object.__setattr__(self, "problem", self.problem.for_all(self.candidates))
@@ -103,7 +105,7 @@ class DiagnosisProblem:
 
         with time.counting():
             solved = diagnose(self.problem, self.budget, self.candidates, self.settings, time.over(fan_out),
-                              self.motions, tell)
+                              self.motions, tell, self.nuisances)
         most = ", ".join(f"{name} {seconds:.0f} s" for name, seconds in time.by_name.most_common(_TOLD) if name)
         said(f"{time.used:.0f} s of a core were used" + f", most by {most}" * bool(most))
         return solved

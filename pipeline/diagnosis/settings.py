@@ -108,6 +108,10 @@ class Settings(Section):
     parameters: dict[str, NominalPrior] = option({}, "nominal values that may be wrong, by name as in"
                                                      " bench.corrections; of an effect that the case states:"
                                                      " coulomb@guide.force")
+    nuisances: tuple[Literal["loads", "zeros", "drifts", "cogging"], ...] = option(
+        (), "hidden values that are fitted beside every hypothesis where the data ask for them: loads, a constant force"
+            " along each joint, as of a weight or a cable; zeros and drifts of the channels; cogging of the joints that"
+            " effects.cogging gives a period")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
     without: tuple[str, ...] = option((), "effects that are not weighed, because they are known not to be there")

@@ -18,6 +18,7 @@ _FILES = (
     "contact.contact_stiffness_law",
     "joint.clearance",
     "joint.backlash",
+    "joint.cogging",
     "contact.contact_damping",
     "structure.attached_mass",
     "structure.added_stiffness",

@@ -30,7 +30,8 @@ class Effect:
     only); ``small``: whether it enters the model linearised about steady sliding, and so the complex modes;
     ``elaborate``: whether it has so many values, or is so costly, that it is weighed only where simpler effects leave
     something; ``extends``: names of effects that are limits of it, beside which it counts by what it adds; ``family``:
-    what such laws of a joint are called together, where it may be known and the form of the law not.
+    what such laws of a joint are called together, where it may be known and the form of the law not. ``weighed``:
+    whether a diagnosis looks for it where it is not asked to: recordings do not find it before a value of it is known.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Effect:
     elaborate: bool = False
     extends: tuple = ()
     family: str = ""
+    weighed: bool = True
 
     def locations(self, model):
         """Names of the locations of a Bench or a Rubbing where the effect can act."""

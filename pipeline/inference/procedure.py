@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, instead, sentence_of
-from pipeline.inference import model_error, pairs, several
+from pipeline.inference import model_error, nuisances, pairs, several
 from pipeline.inference.decision import between_runs, other_form, second_effect, several_laws, steady_tones
 from pipeline.inference.diagnosis import Settings, decided, reaches_noise
 from pipeline.inference.fitting import tone_starts
@@ -30,7 +30,7 @@ from pipeline.inference.search.selection import Combination, merged, sets_and_pa
 from pipeline.inference.time_budget import TimeSpentError, spent, within
 
 
-def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None, tell=None):
+def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None, tell=None, declared=()):
     """Diagnosis of a Problem with {run: Noise} ``budget`` over a ``catalogue`` of Hypotheses (effects alone).
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, the set of laws that the
@@ -41,11 +41,11 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     nominal model has no fit. ``tell(Decision)`` hears what is decided first, to be sharpened. Where the time is spent
     (``time_budget``) before all was tried beside one law nothing is named; what else was not tried is told. Long
     records are diagnosed on their beginnings first (``long_records``). Where no law reaches the noise, one that holds
-    in part may be named (``model_error``).
+    in part may be named (``model_error``). ``declared``: ``nuisances`` of the case.
     """
     settings, problem = settings or Settings(), problem.for_all(catalogue)
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out, tell)
-    return model_error.beside_it(asked, asked.told(motions))
+    return model_error.beside_it(*nuisances.told_beside(asked, declared, motions))
 
 
 @dataclass(frozen=True)

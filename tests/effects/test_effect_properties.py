@@ -119,6 +119,7 @@ def test_every_law_of_a_joint_is_odd_or_says_why_not():
         "velocity_strengthening",
         "micro_slip",
         "clearance",
+        "cogging",
     }
     assert {e.name for e in CATALOGUE if e.location == "joint" and e.locations(BENCH)} <= {*ODD, *other}
 

@@ -306,6 +306,7 @@ def _diagnosis(rig, bodies):
         lines.append(f"  held_out: [{rig.held_out}]   # <- never fitted: best another amplitude or another signal")
     else:
         lines.append("  # held_out: [RUN]                      # <- one run verifies nothing: record another")
+    lines.append("  # nuisances: [loads, zeros, drifts]    # weights and zeros that nobody stated, where the data ask")
     lines += ["  noise:", "    std:                                 # <- of the sensor, or spread of repeats"]
     if roles.balance:
         lines += [f"      force on {body}: {{value: {v.noise[k]:.2g} N, {_NOISE}}}"

@@ -16,6 +16,7 @@ they remember from there:
     wave        F = -(k u + c u'), u = a cos(order * angle + 2 pi f t - phase)
     turning     F = share |T| v / |slip|, slip and T of a contact; |slip| with v, along the row, as its other part
     parametric  F = k cos(order * angle + 2 pi f t - phase) e
+    detent      F = s sin(2 pi e / period) + c cos(2 pi e / period)
     stop        F = max(0, k (e - upper) + c v) beyond upper, min(0, k (e + lower) + c v) beyond -lower
     presliding, rate_state, positional: see ``physics.friction.joint_friction``
 """
@@ -31,7 +32,7 @@ from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, SOL
 POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
 #: state of a rigid element over a step at whose end it is decided whether it slides, beside 0 (at rest) and its sign
 FREE = 2.0
-PARAMETRIC, STOP, PRESLIDING, RATE_STATE, POSITIONAL = range(10, 15)
+PARAMETRIC, DETENT, STOP, PRESLIDING, RATE_STATE, POSITIONAL = range(10, 16)
 #: friction, which has no force where a motion starts and none at rest
 FRICTION = (DRY, PRESLIDING, RATE_STATE, POSITIONAL)
 #: from this one on the forces of laws, which jump or have no slope of use, are enclosed, not found by Newton's method
@@ -152,6 +153,10 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
     if kind == PARAMETRIC:
         slope = p[0] * np.cos(p[1] * instant[1] + 2 * np.pi * p[2] * instant[0] - p[3])
         return slope * elongation, slope, 0.0
+    if kind == DETENT:
+        turn = 2 * np.pi / p[2]
+        sine, cosine = np.sin(turn * elongation), np.cos(turn * elongation)
+        return p[0] * sine + p[1] * cosine, turn * (p[0] * cosine - p[1] * sine), 0.0
     if kind == STOP:
         return _stop(elongation, rate, p)
     if kind > STOP:

@@ -133,6 +133,15 @@ class Parametric:
 
 
 @dataclass(frozen=True)
+class Detent:
+    """F = sine sin(2 pi e / period) + cosine cos(2 pi e / period): N, and m of elongation after which it repeats."""
+
+    sine: float = 0.0
+    cosine: float = 0.0
+    period: float = 1.0
+
+
+@dataclass(frozen=True)
 class Stop:
     """Stops beyond -lower and upper (m) that push back alone: a spring ``stiffness`` N/m beside a ``damping`` N s/m."""
 
@@ -182,8 +191,8 @@ class Positional:
 
 _KIND = {Polynomial: kinds.POLYNOMIAL, Power: kinds.POWER, Sliders: kinds.SLIDERS, Dry: kinds.DRY,
          BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE, Maxwell: kinds.MAXWELL,
-         Turning: kinds.TURNING, Parametric: kinds.PARAMETRIC, Stop: kinds.STOP, Presliding: kinds.PRESLIDING,
-         RateState: kinds.RATE_STATE, Positional: kinds.POSITIONAL}
+         Turning: kinds.TURNING, Parametric: kinds.PARAMETRIC, Detent: kinds.DETENT, Stop: kinds.STOP,
+         Presliding: kinds.PRESLIDING, RateState: kinds.RATE_STATE, Positional: kinds.POSITIONAL}
 #: laws whose forces are enclosed, not found by Newton's method
 ENCLOSED = tuple(law for law, kind in _KIND.items() if kind >= kinds.ENCLOSED)
 #: numbers that a law remembers, where they are no forces of sliders or branches
@@ -304,6 +313,7 @@ def _check(name, law):
              Presliding: lambda p: min(p.force, p.time, p.viscous) < 0 or min(p.length, p.speed) <= 0 or p.rise <= -1,
              RateState: lambda p: min(p.force, p.evolution) < 0 or min(p.direct, p.length) <= 0,
              Positional: lambda p: min(p.force, p.creep) < 0, Softening: lambda p: p.time <= 0,
+             Detent: lambda p: p.period <= 0,
              Maxwell: lambda p: np.shape(p.stiffness) != np.shape(p.time) or np.min(p.time, initial=1) <= 0
              or np.min(p.stiffness, initial=0) < 0,
              Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}
