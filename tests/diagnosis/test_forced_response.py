@@ -8,6 +8,7 @@ from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced_response import forced_problem
+from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference.priors import HalfNormal
 from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
@@ -72,6 +73,8 @@ def test_values_that_differ_between_runs_hide_nothing_and_are_no_missing_effect(
             "effects": ["cubic_stiffness", "coulomb"], "solver": False}
     same = asked(reassembled(), **more).solved()
     assert same.decision.verdict == "consistent"
+    fitted, held_out = np.array(product(asked(reassembled(), **more), same).fit)
+    assert fitted[1] < 1.1 * fitted[3] and held_out[1] < 1.1 * held_out[3], "each run is shown with its own value"
     own = same.completed.values
     assert [own[f"between_runs@level_{k}.joints.mount.stiffness"] * own["joints.mount.stiffness"]
             for k in (1, 2, 3)] == pytest.approx([400, 404, 397], abs=0.3)

@@ -137,7 +137,8 @@ def errors(problem, budget, nominal, null, best, runs, share=1.0):
     noises, held_out = [budget[run.name] for run in runs], [run for run in runs if run.held_out]
     begins = [budget[run.name] for run in held_out]
     models = [(h, h.values(with_own_parameters(problem, begins, h, latent, held_out, share))) for h, latent in models]
-    predicted = {run.name: np.array([problem.shown(h, values, run) for h, values in models], float) for run in runs}
+    predicted = {run.name: np.array([problem.shown(h, h.in_run(values, run.name), run) for h, values in models], float)
+                 for run in runs}
     seen = [_from(run, first_part(problem, noise, run, share) * run.held_out)
             for run, noise in zip(runs, noises, strict=True)]
     by_run = {run.name: np.array([*(normalised_error(run, run.samples - p) for p in predicted[run.name]),
