@@ -59,7 +59,7 @@ class Balance:
     def predicted(self, bench):
         """Forces (n, m) in N that the measured motion needs on this bench. ConfigError as of ``equation_residual``."""
         motion = self._motion(bench)
-        left, resting = missing_beside_rest(bench, self.run, motion, self.rate_doubt)
+        left, resting = missing_beside_rest(bench, self.run, motion, self.rate_doubt, self.equation.corner)
         counted, left, lost = self._counted(bench, motion)[:, None], self._thinned(left), 0.0
         if resting:
             shares = [np.clip(self._thinned(r.share[None])[0], 0.0, 1.0) for r in resting]
@@ -74,7 +74,8 @@ class Balance:
         makes it less."""
         size, inputs = motion.std(axis=1), bench.model.input_rows.tobytes()
         if inputs not in self.motions:
-            applied = applied_force(bench, self.run, self.equation.decimation, self.equation.trim)
+            applied = applied_force(bench, self.run, self.equation.decimation, self.equation.trim,
+                                    self.equation.corner)
             ways = [np.sqrt(np.mean(force**2)) for force in (self.seen.samples, applied)]
             self.motions[inputs] = ways[0] / ways[1] if min(ways) > 0 else 1.0
         as_measured = np.maximum(np.divide(self.size, size, out=np.ones(len(size)), where=size > 0), 1.0)
@@ -88,7 +89,7 @@ class Balance:
         motion = self._motion(bench)
         speed = np.gradient(motion, 1 / self.run.sample_rate, axis=1, edge_order=2)
         return tuple(thinned(values, self.equation.decimation, self.equation.trim)
-                     for values in (forces_missing(bench, self.run, motion), motion, speed))
+                     for values in (forces_missing(bench, self.run, motion, self.equation.corner), motion, speed))
 
     def _motion(self, bench):
         """Filtered displacements (n, samples), kept for benches that read their channels alike."""
@@ -109,7 +110,7 @@ def balance(bench, recorded, equation):
     if kept < 2:
         raise ConfigError(f"run {recorded.run.name}", "samples left between its ends", f"{recorded.run.samples} in all",
                           "trim and decimate less, or take a longer stretch")
-    applied = applied_force(bench, recorded.run, equation.decimation, equation.trim)
+    applied = applied_force(bench, recorded.run, equation.decimation, equation.trim, equation.corner)
     refuse_unforced(recorded.run.name, applied, 0.0)
     rate = recorded.run.sample_rate / equation.decimation
     thin = Run(recorded.run.name, (applied.shape[1] - 1) / rate, rate, conditions=recorded.run.conditions)

@@ -55,7 +55,7 @@ class Balanced:
                                   f"a gain of {place} cannot be told from the masses in a balance of forces: weigh what"
                                   " moves, and state its masses closer")
         bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
-        return self.balances[run.name].predicted(bench)
+        return self.balances[run.name].predicted(bench)[:, :run.samples.shape[1]]
 
     @property
     def plain(self):

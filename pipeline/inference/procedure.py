@@ -220,11 +220,13 @@ class Asked:
             fit = asked.fitted_together(single.null, selection.start(members), last)
             if fit is None:
                 return None, replace(tried, outcome=NOT_BEGUN.failure), True
-            left, error = several_laws.left_by(asked.problem, self.budget, single.null, fit, self.settings.rules)
-            tried = replace(tried, objective=fit.objective, held_out=error, left=left,
+            rules = self.settings.rules
+            left, error, stays = several_laws.left_by(asked.problem, self.budget, single.null, fit, rules)
+            tried = replace(tried, objective=fit.objective, held_out=error, left=left, held_out_left=stays,
+                            excluded=bool(fit.excluded(rules.calibration.excluded)),
                             values=several_laws.values_of(fit, (*known, last)))
-            if left > self.settings.rules.decision.unexplained:
-                return None, replace(tried, outcome=several_laws.too_much(left, self.settings.rules)), False
+            if left > rules.decision.unexplained:
+                return None, replace(tried, outcome=several_laws.too_much(left, rules)), False
             whole, why = asked.named_together(single, fit.latent, last, known)
             rivals = self if any(c.elaborate for c in (*known, last)) else replace(
                 self, catalogue=tuple(c for c in self.catalogue if not c.elaborate))
@@ -319,9 +321,11 @@ class Asked:
             told = self.objected(told, {first.candidate.name: why})
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
+        differing = instead(_not_computed)(between_runs.told)(self.problem, self.budget, told.null,
+                                                              rules.noise_uncertainty)
+        told = replace(told, decision=replace(told.decision, runs_differ=differing))
         return told.remarked(*filter(None, (
-            instead(_not_computed)(other_form.of_noise)(told, settings.seed),
-            instead(_not_computed)(between_runs.told)(self.problem, told.null, rules.noise_uncertainty),
+            instead(_not_computed)(other_form.of_noise)(told, settings.seed), differing,
             instead(_not_computed)(steady_tones.told)(told.null))))
 
     def objected(self, told, objected):

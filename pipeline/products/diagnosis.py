@@ -129,13 +129,15 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=10)
+@product(version=11)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
     verdict: Array = text("", "consistent, parameters, missing, tie, sensor, numerics or unknown")
     reason: Array = text("reason", "why, in sentences")
     other_machine: Array = text("", "why these may be recordings of another machine; empty where nothing speaks for that")
+    failure: Array = text("", "why nothing could be judged; empty where the diagnosis came to its end")
+    runs_differ: Array = text("", "the values that differ where each run alone is what the nominal model predicts; else empty")
     channel: Array = text("channel", "sensors, or features")
     channel_unit: Array = text("channel", "their SI units")
     named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")

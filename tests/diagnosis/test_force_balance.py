@@ -13,6 +13,8 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.forward_model import completed
+from pipeline.inference import long_records
+from pipeline.inference.search.score_screen import directions
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.response import Run, respond
 from stages.lumped import Settings as LumpedSettings
@@ -38,7 +40,17 @@ def test_cubic_stiffness_is_named_with_its_value():
     found = given.solved()
     assert found.decision.verdict == "missing" and found.named[0].candidate.effects == (("cubic_stiffness", "mount"),)
     assert found.named[0].fit.values["cubic_stiffness@mount.coefficient"] == pytest.approx(15000.0, rel=0.02)
-    assert "give all 2 coordinates" in found.failures["moving_base at mount"], "a base that is not measured"
+    base, = (c for c in given.candidates if c.name == "moving_base at mount")
+    assert "give all 2 coordinates" in directions(given.problem, found.null, base).failure, "it is not measured"
+
+
+def test_long_records_are_diagnosed_on_their_beginnings(monkeypatch):
+    given = asked(HIDDEN, effects=["cubic_stiffness", "coulomb"])
+    for name, value in (("MANY", 270), ("_FEWEST", 90), ("_LIVELY", 0.0)):
+        monkeypatch.setattr(long_records, name, value)
+    found = given.solved()
+    assert [c.name for c in found.decision.named] == ["cubic_stiffness at mount"]
+    assert [run.samples.shape for run in found.null.runs] == [run.samples.shape for run in given.problem.training]
 
 
 def decays(force_noise):

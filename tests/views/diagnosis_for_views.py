@@ -32,7 +32,7 @@ def diagnosis(verdict="missing", **values):
     x = 1e-3 * np.sin(TIME)
     given = {
         "verdict": verdict, "reason": ["Coulomb_at guide: posterior 0.97"],
-        "other_machine": "", "family": "", "model_error": 1.0, "in_part": 0,
+        "other_machine": "", "failure": "", "runs_differ": "", "family": "", "model_error": 1.0, "in_part": 0,
         "channel": ["position"], "channel_unit": ["m"],
         "named": [1] if verdict in ("missing", "sensor", "numerics") else [1, 2] if verdict == "tie" else [],
         "known": [], "leading": [], "leading_takes": [], "leading_stays": [],

@@ -22,6 +22,8 @@ title: {title}
 _INFERRED = 'origin: inferred, source: "least squares over these runs"'
 #: gravity in m/s^2, and how near a constant acceleration is taken for it
 _GRAVITY, _LIKE_GRAVITY = 9.81, 0.3
+#: by how much a zero of a force may be off, of its size, and a weight, of itself: lengths on a video are known to that
+_ZERO, _WEIGHT = 0.5, 0.03
 #: channels that a comment lists at most
 _LISTED = 12
 
@@ -296,11 +298,11 @@ def _diagnosis(rig, bodies):
     lines += [f"    joints.{name}.stiffness: {{spread: 0.2}}" for name, _, _ in _links(v)]
     lines += ["    joints.surroundings.damping: {spread: 1.0}"] if roles.base is not None else []
     for k, force in _weights(rig).items():
-        std = f"{0.01 * abs(force):.2g} {'N m' if turns[k] else 'N'}"
+        std = f"{_WEIGHT * abs(force):.2g} {'N m' if turns[k] else 'N'}"
         lines.append(f"    inputs.weight_{k + 1}.offset: {{prior: normal, std: {std}}}")
     for signal, k in roles.drives:
         unit = "N m" if turns[k] else "N"
-        lines.append(f"    inputs.{signal.name}.offset: {{prior: normal, std: {0.05 * v.size[k]:.2g} {unit}}}"
+        lines.append(f"    inputs.{signal.name}.offset: {{prior: normal, std: {_ZERO * v.size[k]:.2g} {unit}}}"
                      "   # a zero that is off, a constant force")
     if rig.held_out:
         lines.append(f"  held_out: [{rig.held_out}]   # <- never fitted: best another amplitude or another signal")

@@ -69,7 +69,8 @@ def _again(bench, record, equation, name, value, where):
 def _driven(bench, record, equation):
     """The Recorded with the inputs that its motion takes on the nominal bench."""
     names, idle = bench.model.input_name, replace(record.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
-    needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, record), equation.corner))
+    needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, record), equation.corner),
+                            equation.corner)
     force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
     return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True)), held=()))
 

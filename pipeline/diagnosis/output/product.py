@@ -50,7 +50,8 @@ def product(problem, diagnosis, contacts=None):
                      problem.noise_levels, otherwise=())
     further = attempt("the next experiment", next_experiment, problem, diagnosis, otherwise=NOTHING)
     result = Diagnosis(
-        verdict=diagnosis.decision.verdict, other_machine="", model_error=diagnosis.model_error,
+        verdict=diagnosis.decision.verdict, other_machine="", failure=diagnosis.decision.failure,
+        runs_differ=diagnosis.decision.runs_differ, model_error=diagnosis.model_error,
         in_part=int(bool(diagnosis.decision.named) and left.floors > problem.rules.decision.in_part),
         reason=[*diagnosis.decision.reasons, *_grown(fits[0]), *problem.remarks, *short(runs, problem.budget),
                 *attempt.failures],
@@ -173,7 +174,10 @@ def _leading(diagnosis, table):
 
 
 def _leading_set(problem, diagnosis):
-    best = several_laws.leading(diagnosis.combinations, diagnosis.decision, problem.rules)
+    single = diagnosis.base or diagnosis
+    alone = min((w.statistics.unexplained for w in single.weighed), default=1.0)
+    few = len(problem.problem.training) < problem.rules.decision.naming_runs        # laws of one run tell little
+    best = None if few else several_laws.leading(diagnosis.combinations, diagnosis.decision, problem.rules, alone)
     return np.array([] if best is None else [best], int)
 
 

@@ -42,10 +42,11 @@ def unsolved(problem, error):
     weighing = Weighing(None, (), prior, Evidences(None, {}, np.log(prior), screen, np.ones(len(runs))),
                         Drift((), names, nothing, nothing, 0.0, 1.0, 0),
                         {c.name: "not judged: the diagnosis did not come to its end" for c in problem.candidates})
+    failure = f"nothing could be judged: while {_step(error)}, the diagnosis failed: {sentence_of(error)}"
     decision = Decision("unknown", (), (
-        f"nothing could be judged: while {_step(error)}, the diagnosis failed: {sentence_of(error)}",
+        failure,
         "what is shown as recalibrated and completed is the model at its given values; probabilities are those before"
-        " the data"))
+        " the data"), failure=failure)
     return (replace(problem, locator=Nowhere(), latent=None, squeals=None, revision=None, noise_levels=()),
             Diagnosis(Calibration(asked, problem.budget, null), weighing, decision))
 

@@ -11,17 +11,21 @@ from pipeline.inference.fitting.least_squares import continued
 _DIFFERS = 1e-3
 
 
-def told(problem, null, uncertainty):
-    """A sentence on the values that differ where each of the fitted runs alone is what the nominal model, whose Fit to
-    all is ``null``, predicts; '' where it is not, and where runs may differ already. Raises what the forward model
-    raises."""
+def told(problem, budget, null, uncertainty):
+    """A sentence on the values that differ where each run alone, held-out ones as well, is what the nominal model
+    predicts; '' where it is not, and where runs may differ already. ``null``: its Fit to the fitted ones.
+
+    ``budget`` {run: Noise}. Raises what the forward model raises.
+    """
     hypothesis = problem.nominal
     shared = np.flatnonzero(hypothesis.shared)
-    if null.unordered or len(null.runs) < 2 or not len(shared) or any(p.of for p in hypothesis.parameters):
+    runs = (*null.runs, *problem.held_out)
+    if null.unordered or len(runs) < 2 or not len(shared) or any(p.of for p in hypothesis.parameters):
         return ""
     values, std = [], []
-    for run, noise in zip(null.runs, null.noises, strict=True):
-        alone = continued(problem, linearised(problem, (noise,), hypothesis, null.latent, (run,)), patient=False)
+    for run in runs:
+        begin = linearised(problem, (budget[run.name],), hypothesis, null.latent, (run,))
+        alone = continued(problem, begin, patient=False)
         if alone.chi_square.sum() - alone.counts.sum() > doubt(alone.counts.sum(), uncertainty):
             return ""
         values.append(alone.latent[shared])

@@ -83,6 +83,8 @@ class Decision:
 
     ``leading``: where nothing is named although something is missing, the CandidateStatistics of what explains most of
     it beyond chance; None where no candidate helps. ``family``: others at its place that take about as much.
+    ``runs_differ``: a sentence where each run alone is what the nominal model predicts; ``failure``: one where nothing
+    could be judged.
     """
 
     verdict: str
@@ -90,6 +92,8 @@ class Decision:
     reasons: tuple
     leading: CandidateStatistics | None = None
     family: tuple = ()
+    runs_differ: str = ""
+    failure: str = ""
 
 
 def decide(runs, candidates, rules):

@@ -83,10 +83,12 @@ def hoped(null, rules, times=2.0):
 
 
 def left_by(problem, budget, null, fit, rules):
-    """(Share of the excess error of the Fit ``null`` that a Fit leaves, its error on held-out runs in noise floors or
-    None without any)."""
+    """(Share of the excess error of the Fit ``null`` that a Fit leaves; on held-out runs its error in noise floors and
+    the share it leaves there, None without any, or where these need nothing)."""
     gained, _ = held_out_gains(problem, budget, null, {0: fit}, np.ones(1), rules)[0]
-    return unexplained(null, fit, rules), gained and gained.error
+    uncertainty = rules.decision.noise_uncertainty
+    powered = bool(gained) and gained.powered(uncertainty)
+    return unexplained(null, fit, rules), gained and gained.error, gained.left(uncertainty) if powered else None
 
 
 def too_much(left, rules):
@@ -100,14 +102,16 @@ def values_of(fit, laws):
     return tuple((p.name, fit.values[p.name], p.unit) for law in laws for p in law.parameters)
 
 
-def leading(combinations, decision, rules):
+def leading(combinations, decision, rules, alone=1.0):
     """Index of the set of laws that predicts held-out runs best, else fits best, among the ``combinations`` that leave
-    little together and half of what the leading law of a Decision ``unknown`` leaves; None where none does."""
+    little together, on held-out runs too, by values that no prior excludes, and half of what one law does: the leading
+    one of a Decision ``unknown``, or the share ``alone`` of the best fit; None where none does."""
     if decision.verdict != "unknown":
         return None
-    alone = 1 - decision.leading.takes if decision.leading else 1.0
-    good = [k for k, c in enumerate(combinations) if c.left is not None
-            and c.left <= min(rules.decision.leads_together, alone / 2)]
+    alone = min(alone, 1 - decision.leading.takes if decision.leading else 1.0)
+    together = rules.decision.leads_together
+    good = [k for k, c in enumerate(combinations) if c.left is not None and c.left <= min(together, alone / 2)
+            and (c.held_out_left or 0.0) <= together and not c.excluded]
     return min(good, key=lambda k: (combinations[k].held_out or 0.0, combinations[k].left), default=None)
 
 

@@ -13,8 +13,9 @@ class Combination:
     """A combination of candidates that was tried: their ``effects`` (name, ...) and the ``gain`` of its evidence.
 
     ``gain``: ln Z over the nominal model along measured motions or linearised, multiplicity paid for. ``objective`` of
-    its refit, ``held_out`` error there in noise floors and the share ``left`` of the excess error, None where it was
-    not refitted; ``values`` ((parameter, value, unit), ...) of its laws there. ``outcome``: in words.
+    its refit, ``held_out`` error there in noise floors and the share ``left`` of the excess error, ``held_out_left`` on
+    held-out runs, None where it was not refitted; ``excluded``: whether priors exclude its values; ``values``
+    ((parameter, value, unit), ...) of its laws there. ``outcome``: in words.
     """
 
     effects: tuple
@@ -24,6 +25,8 @@ class Combination:
     outcome: str = ""
     left: float | None = None
     values: tuple = ()
+    held_out_left: float | None = None
+    excluded: bool = False
 
 
 @dataclass(frozen=True)

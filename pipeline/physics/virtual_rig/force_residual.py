@@ -3,9 +3,9 @@
     r = M q'' + C q' + K q + sum_k b_k F_k - sum_i (n_i N_i + t_i T_i) - f        (n, samples), N
 
 r is linear in every parameter that the forces are linear in, which makes it the cheap test of a missing term: no
-simulation, no start state. Displacements are filtered without shift in phase before they are differentiated; r is
-filtered and decimated in the same way, which keeps it linear (Gautier, Janot & Vandanjon, IEEE Trans. Control Syst.
-Technol. 21 (2013) 428).
+simulation, no start state. Displacements are filtered without shift in phase before they are differentiated, the forces
+of inputs, elements and contacts in the same way, so that what is linear closes whatever the corner; r is filtered once
+more before it is decimated (Gautier, Janot & Vandanjon, IEEE Trans. Control Syst. Technol. 21 (2013) 428).
 """
 
 from functools import lru_cache
@@ -18,6 +18,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import read
 from pipeline.physics.friction.state_variables import friction_along
 from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.spline_derivatives import derivatives
 from pipeline.physics.time_stepping.coupled_solver import advance_wear, no_memory, surface_shift
 from pipeline.physics.time_stepping.element_forces import DRY, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import alone, wave_table
@@ -48,23 +49,26 @@ def equation_residual(bench, run, measured, corner=None, order=4, decimation=1, 
     sample is kept, behind a low pass; ``trim`` samples are left out at both ends first. Channels are read as the bench
     scales them. Raises ConfigError where the channels do not give every coordinate, or a contact does not yield.
     """
-    return thinned(forces_missing(bench, run, smoothed(bench, run, measured, corner, order)), decimation, trim)
+    motion = smoothed(bench, run, measured, corner, order)
+    return thinned(missing_beside_rest(bench, run, motion, None, corner, order)[0], decimation, trim)
 
 
 def smoothed(bench, run, measured, corner=None, order=4):
     """Displacements (n, samples) of the coordinates behind the low pass of ``equation_residual``."""
     motion = coordinates(bench, run, measured)
-    if corner is not None:
-        if not 0 < corner < run.sample_rate / 2:
-            raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz",
-                              f"{corner:g} Hz")
-        motion = _forth_and_back(_low_pass(order, 2 * corner / run.sample_rate), motion)
-    return motion
+    if corner is not None and not 0 < corner < run.sample_rate / 2:
+        raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz", f"{corner:g} Hz")
+    return _below(run, motion, corner, order)
 
 
-def applied_force(bench, run, decimation=1, trim=0):
-    """Forces (n, samples) of the inputs of ``run`` on the coordinates, thinned out like the residual."""
-    return thinned(_applied(bench, run), decimation, trim)
+def applied_force(bench, run, decimation=1, trim=0, corner=None):
+    """Forces (n, samples) of the inputs of ``run`` on the coordinates, filtered and thinned out like the residual."""
+    return thinned(_below(run, _applied(bench, run), corner), decimation, trim)
+
+
+def _below(run, values, corner, order=4):
+    """Values (n, samples) behind the low pass of ``equation_residual``; as they are without a ``corner``."""
+    return values if corner is None else _forth_and_back(_low_pass(order, 2 * corner / run.sample_rate), values)
 
 
 def thinned(values, decimation, trim):
@@ -123,31 +127,39 @@ def rate_doubt(bench, run, measured, corner, order=4):
     return np.sqrt(scipy.ndimage.uniform_filter1d(added**2, 2 * int(run.sample_rate / low) + 1, mode="nearest"))
 
 
-def forces_missing(bench, run, motion):
-    """r (n, samples) of displacements (n, samples), differentiated by central differences."""
-    return missing_beside_rest(bench, run, motion, None)[0]
+def forces_missing(bench, run, motion, corner=None):
+    """r (n, samples) of displacements (n, samples), differentiated; forces up to the ``corner`` in Hz."""
+    return missing_beside_rest(bench, run, motion, None, corner)[0]
 
 
-def missing_beside_rest(bench, run, motion, doubt):
+def missing_beside_rest(bench, run, motion, doubt, corner=None, order=4):
     """(r as of ``forces_missing`` but for rigid dry friction at rest, [Resting] that it is without).
 
     ``doubt`` as of ``rate_doubt``, None where speeds are exact.
     """
     model, interval = bench.model, 1 / run.sample_rate
-    speed = np.gradient(motion, interval, axis=1, edge_order=2)
+    speed, inertia = _rates(motion, interval, corner)
     turning = np.broadcast_to(run_drive(bench, run), run.samples)
     mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
-    inertia = np.gradient(speed, interval, axis=1, edge_order=2)
-    inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
     residual = residual + turning * (model.gyroscopic @ speed) + turning**2 * (model.centrifugal @ motion)
     angle = scipy.integrate.cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
     elements, resting = _elements(model, motion, speed, instants, drawn, slip, doubt)
-    residual = residual + elements
-    residual = residual - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn)
-    return residual - _applied(bench, run), resting
+    forces = elements - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn) - _applied(bench, run)
+    return residual + _below(run, forces, corner, order), resting
+
+
+def _rates(motion, interval, corner):
+    """(Speed, acceleration), each (n, samples): behind a low pass those of a spline; else central differences, which
+    hold noise back and are exact under held forces."""
+    if corner is not None:
+        return derivatives(motion, interval)
+    speed = np.gradient(motion, interval, axis=1, edge_order=2)
+    inertia = np.gradient(speed, interval, axis=1, edge_order=2)
+    inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
+    return speed, inertia
 
 
 def held_at_rest(residual, resting, noise):

@@ -62,6 +62,20 @@ def test_the_residual_is_linear_in_the_parameters():
 
 
 @pytest.mark.exact
+def test_a_linear_model_closes_with_few_samples_a_period_and_a_corner_within_the_motion():
+    """m x'' + k x = f in closed form, two tones of 9 and 5 samples a period, the corner between them."""
+    model, run = lumps([2.0], [[1.0]], [4e3], [0.0]), Run("tones", 8.0, 200.0)
+    bench = Bench(model, Hard(), constant(0.0), 1e-4, (Sensor("x", DISPLACEMENT, "sensor_0"),))
+    tones = [(2 * np.pi * 200 / samples, 1e-3) for samples in (9.0, 5.0)]
+    motion = sum(size * np.sin(w * run.time) for w, size in tones)
+    force = sum(size * (4e3 - 2.0 * w**2) * np.sin(w * run.time) for w, size in tones)
+    left = equation_residual(bench, replace(run, inputs={"input_0": force}), {"x": motion}, corner=30.0, trim=60)
+    heavier = replace(bench, model=replace(model, mass=1.01 * model.mass))
+    off = equation_residual(heavier, replace(run, inputs={"input_0": force}), {"x": motion}, corner=30.0, trim=60)
+    assert left.std() < 0.1 * off.std(), "a percent of the mass is told"
+
+
+@pytest.mark.exact
 def test_filtering_takes_noise_off_but_not_the_force():
     run, truth = shaken(), pair(Polynomial(cubic=4e8))
     noisy = {n: v + 1e-6 * np.random.default_rng(3).standard_normal(len(v)) for n, v in respond(truth, run).items()}

@@ -24,6 +24,10 @@ REGIMES = ("amplitude", "velocity", "time")
 AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
 #: verdict of a tie with one member: a single run, or a list alone, cannot confirm an effect
 _PROPOSED = "Proposed, not confirmed"
+#: headlines where a sentence of the product stands in place of what leads
+_INSTEAD = {"failure": "The diagnosis failed: nothing could be judged",
+            "other_machine": "The recordings do not fit this model: are they of another machine?",
+            "runs_differ": "The model fits each run alone, at values that differ from run to run"}
 #: values that are listed on the first screen; the table holds all
 _VALUES = 8
 
@@ -88,8 +92,8 @@ def _measured(product):
 
 def _unknown(product):
     """Headline where nothing is named: what leads, or that the catalogue, or the machine, is another one."""
-    if product.other_machine.item():
-        return "The recordings do not fit this model: are they of another machine?"
+    if instead := _instead(product):
+        return _INSTEAD[instead]
     if len(product.leading_set):
         return f"Leading explanation, not confirmed: {leading_set(product)}"
     if not len(product.leading):
@@ -101,10 +105,14 @@ def _unknown(product):
     return f"Leading explanation, not confirmed: {what}; takes {takes} {judged_by(product)}"
 
 
+def _instead(product):
+    return next((name for name in _INSTEAD if getattr(product, name).item()), None)
+
+
 def _leading(product):
     """What leads where nothing is named, and what stays."""
-    if product.other_machine.item():
-        return product.other_machine.item()
+    if instead := _instead(product):
+        return _first_up(getattr(product, instead).item().rstrip(".")) + "."
     if len(product.leading_set):
         return f"No law alone explains much. Together {leading_set(product, True)}"
     if not len(product.leading):
