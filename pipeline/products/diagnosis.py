@@ -145,6 +145,7 @@ class Diagnosis:
     leading: Array = count("leading", "row of the hypothesis that explains most beyond chance where nothing is named, then of those at its place that take nearly as much; none where no candidate helps")
     leading_takes: Array = quantity("1", "leading", "share of the excess error that it takes, on held-out runs where they can tell, else on all")
     leading_stays: Array = quantity("1", "leading", "share that stays beyond the doubt about noise")
+    leading_values: Array = text("leading", "its values with their standard deviations, in words")
     family: Array = text("", "what the laws that are named, or that lead, are called together, such as dry friction, where the form of the law is open; else empty")
     model_error: Array = quantity("1", "", "error of the model beside which what is named is told from the others, in noise floors; 1 where noise alone is")
     in_part: Array = count("", "1 where what is named leaves more than noise: it holds in part")

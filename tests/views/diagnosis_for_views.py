@@ -35,7 +35,7 @@ def diagnosis(verdict="missing", **values):
         "other_machine": "", "failure": "", "runs_differ": "", "family": "", "model_error": 1.0, "in_part": 0,
         "channel": ["position"], "channel_unit": ["m"],
         "named": [1] if verdict in ("missing", "sensor", "numerics") else [1, 2] if verdict == "tie" else [],
-        "known": [], "leading": [], "leading_takes": [], "leading_stays": [],
+        "known": [], "leading": [], "leading_takes": [], "leading_stays": [], "leading_values": [],
         "noise_level": [0.5, 2.0], "noise_verdict": [verdict, verdict], "noise_named": ["", ""],
         "left_floors": 1.01, "left_sentence": "", "left_candidate": "",
         "hypothesis": ["nothing missing", "coulomb at guide", "quadratic_damping at arm",

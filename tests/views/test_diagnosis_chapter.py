@@ -5,6 +5,7 @@ import pytest
 
 from pipeline.views.chapters.bench import bench as bench_chapter
 from pipeline.views.chapters.bench.diagnosis import chapter, headline, note
+from pipeline.views.chapters.bench.hypotheses import refusal_table
 from pipeline.views.chapters.chapter import Look
 from pipeline.views.figures.bench import diagnosis as pictures
 from pipeline.views.pages.report import page, plan
@@ -48,6 +49,27 @@ def test_what_is_known_is_told_apart_from_what_may_be(kind, rows, said, kinds):
     told = dict(note(found))["What is missing"]
     assert ("20.4" in told) == (len(rows[1]) == 1 and kind != "tie"), "values are those of the first alone"
     assert "not tell apart" not in told or len(rows[1]) > 1
+
+
+def test_refusals_of_single_laws_fill_a_table_not_the_first_screen():
+    found = diagnosis("unknown", reason=[
+        "nothing reaches the noise", "coulomb at guide: it leaves 12% of the excess error",
+        "coulomb at guide: its fit did not converge", "quadratic_damping at arm: it leaves 40% of the excess error"])
+    told = dict(note(found))["How certain"]
+    assert told.startswith("Nothing reaches the noise. 2 laws were refused: the table of refusals tells why.")
+    assert refusal_table(found).rows == (
+        ("coulomb at guide", "it leaves 12% of the excess error; its fit did not converge"),
+        ("quadratic damping at arm", "it leaves 40% of the excess error"))
+    assert refusal_table(diagnosis()) is None
+
+
+@pytest.mark.parametrize("field, said", [
+    ("failure", "The diagnosis failed: nothing could be judged"),
+    ("runs_differ", "The model fits each run alone, at values that differ from run to run")])
+def test_what_stands_in_place_of_a_leading_law_is_the_headline(field, said):
+    found = diagnosis("unknown", **{field: "because of this and that"})
+    assert headline(found)[0] == said
+    assert dict(note(found))["What is missing"].startswith("Because of this and that.")
 
 
 def test_only_rules_that_were_applied_are_told():
@@ -99,13 +121,15 @@ def test_a_description_is_never_called_physics():
 
 def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_catalogue_in_doubt():
     found = diagnosis("unknown", leading=[1], leading_takes=[0.81], leading_stays=[0.19],
+                      leading_values=["force 20.4 +- 0.3 N"],
                       noise_verdict=["unknown", "missing"], noise_named=["", "coulomb at guide"])
     assert headline(found)[0] == ("Leading explanation, not confirmed: coulomb at guide; takes 81\u202f% of the excess"
                                   " error on held-out runs")
     told = dict(note(found))
     assert "takes 81\u202f% of the excess error on held-out runs, and 19\u202f% stays" in told["What is missing"]
     assert "it would be missing (coulomb at guide) at 2 times what is known of it" in told["How certain"]
-    family = diagnosis("unknown", leading=[1, 2], leading_takes=[0.81, 0.8], leading_stays=[0.19, 0.2])
+    family = diagnosis("unknown", leading=[1, 2], leading_takes=[0.81, 0.8], leading_stays=[0.19, 0.2],
+                       leading_values=["", ""])
     assert "Of its family, " in dict(note(family))["What is missing"] and headline(family)[0] == headline(found)[0]
     narrow = diagnosis("unknown", objection=["", "the prior of its force excludes the data", "", ""])
     assert headline(narrow)[0].endswith("the fit of coulomb at guide cannot be relied on")
@@ -119,13 +143,15 @@ def test_laws_of_one_family_at_one_place_are_called_by_it():
     told = "dry friction at guide, of a form that is open: coulomb or dahl"
     assert headline(diagnosis("tie", **one, family="dry friction"))[0].endswith(told)
     leading = diagnosis("unknown", **one, family="dry friction", leading=[1, 2], leading_takes=[0.81, 0.8],
+                        leading_values=["", ""],
                         leading_stays=[0.19, 0.2])
     assert f"not confirmed: {told}; takes" in headline(leading)[0]
     assert headline(diagnosis("tie", **one))[0].endswith("coulomb at guide or dahl at guide")
 
 
 def test_laws_that_explain_much_together_lead_with_their_values_and_why_they_are_not_named():
-    found = diagnosis("unknown", leading=[1], leading_takes=[0.19], leading_stays=[0.8], leading_set=[0])
+    found = diagnosis("unknown", leading=[1], leading_takes=[0.19], leading_stays=[0.8], leading_values=[""],
+                      leading_set=[0])
     assert headline(found)[0] == ("Leading explanation, not confirmed: coulomb at a and cubic stiffness at a together;"
                                   " 11 % of the excess error stays")
     told = dict(note(found))["What is missing"]

@@ -115,8 +115,9 @@ def as_json(product):
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "family": product.family.item(), "grade": _grade(product), "model_error": float(product.model_error),
-        "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
-                    zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
+        "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays), "values": str(values)}
+                    for k, takes, stays, values in zip(product.leading, product.leading_takes, product.leading_stays,
+                                                       product.leading_values, strict=True)],
         "leading_set": [combinations[k] for k in product.leading_set],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
         "combinations": combinations,

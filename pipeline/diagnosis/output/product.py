@@ -17,6 +17,7 @@ from pipeline.inference.diagnosis import over_noise
 from pipeline.inference.fitting.noise import normalised_error
 from pipeline.inference.fitting.parameter_drift import spread
 from pipeline.inference.fitting.run_parameters import short
+from pipeline.inference.search.score_screen import short_name
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables
@@ -170,7 +171,16 @@ def _leading(diagnosis, table):
     rows = [table["hypothesis"].index(c.name) for c in every]
     told = table["named"] or rows
     return {"leading": rows, "family": family(*([table[key][k] for k in told] for key in ("effect", "place"))),
-            "leading_takes": [c.takes for c in every], "leading_stays": [c.stays for c in every]}
+            "leading_takes": [c.takes for c in every], "leading_stays": [c.stays for c in every],
+            "leading_values": [_values_of(diagnosis, c.name) for c in every]}
+
+
+def _values_of(diagnosis, name):
+    """Values of the hypothesis of this ``name`` with their standard deviations, in words."""
+    best = next(w for w in diagnosis.weighed if w.candidate.name == name)
+    std = spread(best.fit, best.fit.weights)
+    return ", ".join(f"{short_name(p).replace('_', ' ')} {best.fit.values[p.name]:.4g} +- {std[p.name]:.2g}"
+                     + (f" {p.unit}" if p.unit != "1" else "") for p in best.candidate.parameters if not p.run)
 
 
 def _leading_set(problem, diagnosis):

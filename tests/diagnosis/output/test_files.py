@@ -77,7 +77,7 @@ def test_the_grade_says_how_far_what_is_named_holds():
     nothing = np.zeros(0, int)
     assert as_json(replace(told(), named=nothing))["grade"] == ""
     assert as_json(replace(told(), named=nothing, leading=np.ones(1, int), leading_takes=np.ones(1),
-                           leading_stays=np.zeros(1)))["grade"] == "leading"
+                           leading_stays=np.zeros(1), leading_values=np.array(["force 2 N"])))["grade"] == "leading"
 
 
 def test_laws_that_cannot_be_told_apart_come_with_their_family():

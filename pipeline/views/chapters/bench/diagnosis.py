@@ -3,13 +3,17 @@
 import numpy as np
 
 from pipeline.views.chapters.bench.hypotheses import (
+    all_refused,
     combination_table,
-    effect_at,
+    first_up,
     hypothesis_table,
-    judged_by,
-    leading_set,
+    led_by,
+    listed,
     named_effects,
-    of_one_family,
+    of_no_law,
+    refusal_table,
+    sentence,
+    unnamed,
     words,
 )
 from pipeline.views.chapters.bench.model_errors import changes, differs, error_table, held_out_stops, stop_table
@@ -24,10 +28,6 @@ REGIMES = ("amplitude", "velocity", "time")
 AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
 #: verdict of a tie with one member: a single run, or a list alone, cannot confirm an effect
 _PROPOSED = "Proposed, not confirmed"
-#: headlines where a sentence of the product stands in place of what leads
-_INSTEAD = {"failure": "The diagnosis failed: nothing could be judged",
-            "other_machine": "The recordings do not fit this model: are they of another machine?",
-            "runs_differ": "The model fits each run alone, at values that differ from run to run"}
 #: values that are listed on the first screen; the table holds all
 _VALUES = 8
 
@@ -38,13 +38,13 @@ def headline(product):
     verb = "is" if " and " not in named else "are"
     tie = "Missing effect identified up to ambiguity" if len(product.named) > 1 else _PROPOSED
     sentences = {
-        "missing": (f"{_first_up(named)} {verb} missing{_in_part(product)} ({_sure(product)})", "warning"),
+        "missing": (f"{first_up(named)} {verb} missing{_in_part(product)} ({_sure(product)})", "warning"),
         "tie": (f"{tie}: {named}{_in_part(product)}", "warning"),
         "sensor": (f"{_measured(product)}: {named} ({_sure(product)})", "warning"),
         "numerics": (f"The solver, not the physics: {named}", "warning"),
         "parameters": ("Parameter values are off; no physics is missing", "warning"),
         "consistent": ("Nothing is missing: the model explains the recordings", "quiet"),
-        "unknown": (_unknown(product), "squeal")}
+        "unknown": (unnamed(product, _at(product)), "squeal")}
     return sentences[product.verdict.item()]
 
 
@@ -66,7 +66,7 @@ def chapter(product, look):
         tuple(_figures(product)), tuple(filter(None, (
             error_table(product), stop_table(product), _with_force(product), *squeal_tables(product),
             _parameters(product), _starts(product), hypothesis_table(product),
-            combination_table(product), _location(product), _thresholds(product)))),
+            refusal_table(product), combination_table(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
 
@@ -90,50 +90,6 @@ def _measured(product):
     return "The measurement, and physics too" if physics else "The measurement, not the physics"
 
 
-def _unknown(product):
-    """Headline where nothing is named: what leads, or that the catalogue, or the machine, is another one."""
-    if instead := _instead(product):
-        return _INSTEAD[instead]
-    if len(product.leading_set):
-        return f"Leading explanation, not confirmed: {leading_set(product)}"
-    if not len(product.leading):
-        doubted = _doubted(product)
-        return f"Unmodelled physics{_at(product)}, outside the catalogue" if doubted is None else \
-            f"Unmodelled physics{_at(product)}; the fit of {effect_at(product, doubted)} cannot be relied on"
-    leading, takes = product.leading, percent(product.leading_takes[0], 2)
-    what = of_one_family(product, leading) or effect_at(product, leading[0])
-    return f"Leading explanation, not confirmed: {what}; takes {takes} {judged_by(product)}"
-
-
-def _instead(product):
-    return next((name for name in _INSTEAD if getattr(product, name).item()), None)
-
-
-def _leading(product):
-    """What leads where nothing is named, and what stays."""
-    if instead := _instead(product):
-        return _first_up(getattr(product, instead).item().rstrip(".")) + "."
-    if len(product.leading_set):
-        return f"No law alone explains much. Together {leading_set(product, True)}"
-    if not len(product.leading):
-        doubted = _doubted(product)
-        return "No effect of the catalogue helps beyond chance: the physics lies outside it." if doubted is None else (
-            f"The most probable explanation, {effect_at(product, doubted)}, cannot be relied on:"
-            f" {product.objection[doubted]}.")
-    k, *family = product.leading
-    return (f"The leading explanation is {effect_at(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
-            f" probability): it takes {percent(product.leading_takes[0], 2)} {judged_by(product)}, and"
-            f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise."
-            + (f" Of its family, {_listed([effect_at(product, each) for each in family])} would take nearly as much:"
-               " the form of the law is open." if family else ""))
-
-
-def _doubted(product):
-    """Row of the most probable hypothesis if its fit is doubted, else None."""
-    first = int(np.argmax(product.posterior))
-    return first if first and str(product.objection[first]) else None
-
-
 def _levels(product):
     """'unknown at half, missing (coulomb at guide) at 2 times the noise' where the level of noise decides."""
     verdicts = [(float(level), str(v), str(named)) for level, v, named in zip(
@@ -143,14 +99,10 @@ def _levels(product):
     if not verdicts:
         return ""
     if not other:
-        same = _listed([number(level, 2) for level, _, _ in verdicts])
+        same = listed([number(level, 2) for level, _, _ in verdicts])
         return f"The verdict is the same at {same} times {error or 'the noise'}."
     parts = [f"{v}{f' ({words(named)})' if named else ''} at {number(level, 2)} times" for level, v, named in other]
-    return f"The verdict hangs on the level of noise: it would be {_listed(parts)} {error or 'what is known of it'}."
-
-
-def _listed(items):
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+    return f"The verdict hangs on the level of noise: it would be {listed(parts)} {error or 'what is known of it'}."
 
 
 def _in_part(product):
@@ -169,12 +121,8 @@ def _left(product):
             f" an error of {number(product.model_error.item(), 2)} noise floors, which the best of them leave. "
             if product.model_error.item() > 1 else "")
     return (f"{part}{number(product.left_floors.item(), 3)} noise floors remain."
-            f" {_sentence(product.left_sentence.item())}"
-            f"{f' Next candidate: {_sentence(words(following))}' if following else ''}")
-
-
-def _first_up(text):
-    return text[:1].upper() + text[1:]
+            f" {sentence(product.left_sentence.item())}"
+            f"{f' Next candidate: {sentence(words(following))}' if following else ''}")
 
 
 def _sure(product):
@@ -211,13 +159,13 @@ def _missing(product):
     if verdict in ("missing", "sensor", "numerics"):
         values = "; ".join(_value(product, k) for k in range(len(product.parameter)) if product.parameter_owner[k])
         values_of_one = values if len(product.named) < 2 else ""      # otherwise they belong to the first alone
-        return f"{_first_up(named_effects(product))}{': ' + values_of_one if values_of_one else ''}."
+        return f"{first_up(named_effects(product))}{': ' + values_of_one if values_of_one else ''}."
     if verdict == "tie":
         alternatives = "One of these, which the recordings cannot distinguish"
         return f"{alternatives if len(product.named) > 1 else _PROPOSED}: {named_effects(product)}."
     if verdict == "unknown":
         force = product.latent_sentence.item() or "No latent force could be estimated."
-        return f"{_leading(product)} {force}"
+        return f"{led_by(product)} {force}"
     if verdict == "parameters":
         every = range(len(product.parameter))
         moved = [k for k in every if _distance(product, k) > 2] or [max(every, key=lambda k: _distance(product, k))]
@@ -261,7 +209,7 @@ def _distance(product, k):
 
 def _how_certain(product):
     if product.verdict.item() not in ("missing", "sensor", "numerics"):
-        return " ".join(filter(None, (*(_sentence(r) for r in product.reason), _levels(product))))
+        return " ".join(filter(None, (*map(sentence, of_no_law(product)), all_refused(product), _levels(product))))
     first = product.named[0]
     held_out = any(run.held_out for run in product.runs.values())
     agreed = not any("across them was not tested" in str(reason) for reason in product.reason)
@@ -269,11 +217,6 @@ def _how_certain(product):
     return (f"Probability {_sure(product)} among {len(product.hypothesis) - 1} hypotheses. Family-wise p-value"
             f" {number(product.p_value[first], 2)}: the chance that some effect of the catalogue scores as high"
             f" although nothing is missing. Decision rules met: {', '.join(rules)}. {_levels(product)}").strip()
-
-
-def _sentence(text):
-    text = _first_up(str(text).strip())
-    return text if text.endswith(".") else f"{text}."
 
 
 def _next(product):
@@ -286,7 +229,7 @@ def _next(product):
 
 def _notes(product):
     if product.verdict.item() in ("missing", "sensor", "numerics"):     # of others all reasons are told
-        yield from (_sentence(reason) for reason in product.reason if "could not be" in str(reason))
+        yield from (sentence(reason) for reason in product.reason if "could not be" in str(reason))
     if not any(r.held_out for r in product.runs.values()):
         yield "No run was held out: nothing here is verified on unfitted recordings."
     if product.latent_sentence.item() and product.verdict.item() == "unknown":
