@@ -31,5 +31,5 @@ def told(rig):
     yield from dict.fromkeys(rig.remarks)
     runs = [name for each in rig.runs for name in each]
     yield f"runs: {', '.join(runs[:8])}{' ...' if len(runs) > 8 else ''}; held out: {rig.held_out or 'none'}"
-    yield ("form: balance of forces (displacements at every coordinate, and what acts)" if rig.roles.balance else
+    yield ("form: balance of forces (displacements at every coordinate, and what acts)" if rig.balance else
            f"form: simulation, start {'fitted' if rig.start else 'at rest'}")

@@ -31,6 +31,11 @@ class Rig:
     start: str | None
     remarks: list
 
+    @property
+    def balance(self):
+        """Whether its form is a balance of forces: of what is sampled finely enough."""
+        return self.roles.balance and not self.values.coarse
+
 
 def rig(paths):
     """Rig of files. Raises ConfigError where no reader reads one, or no channel of the first is in another."""

@@ -176,7 +176,7 @@ def _joint(bodies, turns, k):
 
 def _massless(rig, k):
     """Whether a coordinate of a balance has no mass: loops without a time, or records that tell none."""
-    return rig.roles.balance and not rig.values.mass[k, k] > 0
+    return rig.balance and not rig.values.mass[k, k] > 0
 
 
 def _held(values, k):
@@ -191,10 +191,10 @@ def _links(values):
 
 
 def _damping(rig, k):
-    """Damping of a support: as fitted, else a hundredth of what carries it; next to none of what falls."""
+    """Damping of a support: as fitted, else a hundredth of what carries it; none of what falls."""
     v = rig.values
     if _falls(rig):
-        return 1e-3 * float(v.size[k])
+        return None
     if v.damping[k] > 0:
         return float(v.damping[k])
     stiff, mass = max(v.stiffness[k, k], 0.0), v.mass[k, k]
@@ -245,7 +245,7 @@ def _inputs(rig, bodies, names, turns):
 def _bench(rig, bodies):
     roles, v, turns = rig.roles, rig.values, _turns(rig)
     lines = ["bench:"]
-    if roles.balance:
+    if rig.balance:
         lines += ["  forward: equation                      # measured motions are put into the equation of motion",
                   f"  equation: {{corner: {v.corner:g} Hz, decimation: {v.decimation}, trim: {v.trim}}}"
                   "   # corner: up to where the motion stands out of its noise" if not quasi_static(rig) else
@@ -278,7 +278,8 @@ def _bench(rig, bodies):
         note = "" if not gain else f"   # <- gain: {_CURRENT}" if s.meaning.measures == "current" else (
             "   # <- the area in m^2: 1, where a bar of 1 m^2 is pulled" if s.meaning.measures == "stress" else
             f"   # <- gain: {wanted} per {shown}")
-        lines.append(f"    {s.name}: {{channel: {s.name}{gain}}}{note}")
+        hold = ", hold: band_limited" if v.coarse and not rig.balance else ""
+        lines.append(f"    {s.name}: {{channel: {s.name}{gain}{hold}}}{note}")
     return lines
 
 
@@ -310,7 +311,7 @@ def _diagnosis(rig, bodies):
         lines.append("  # held_out: [RUN]                      # <- one run verifies nothing: record another")
     lines.append("  # nuisances: [loads, zeros, drifts]    # weights and zeros that nobody stated, where the data ask")
     lines += ["  noise:", "    std:                                 # <- of the sensor, or spread of repeats"]
-    if roles.balance:
+    if rig.balance:
         lines += [f"      force on {body}: {{value: {v.noise[k]:.2g} N, {_NOISE}}}"
                   for k, body in enumerate(bodies)]
     else:

@@ -12,6 +12,10 @@ import scipy
 
 #: density over that of the noise up to which a motion counts, and shares of the rate that bound its corner
 _OVER, _LOWEST, _HIGHEST = 100.0, 1 / 200, 1 / 6
+#: share of the rate beyond which motion is coarsely sampled, and share of the accelerations there that matters
+_COARSE, _MATTERS = 0.2, 0.02
+#: order of the spline whose derivatives are those of motions
+_SPLINE = 5
 #: samples kept per period of the corner; samples left out at an end, in periods of the corner
 _KEPT, _TRIM = 3, 3
 #: squared error with the other sign over that as recorded below which a force is turned
@@ -26,7 +30,8 @@ _MEDIAN = 0.6745
 class FirstValues:
     """``mass`` (n, n), ``damping`` (n,), ``stiffness`` (n, n), ``constant`` force (n,); ``left`` (n,) rms over ``size``
     (n,), that of the forces; ``noise`` (n,) of the forces; ``reversed`` (n,): forces that fit with the other sign
-    alone; ``corner`` Hz, ``decimation``, ``trim``; ``fastest`` rad/s of the model."""
+    alone; ``corner`` Hz, ``decimation``, ``trim``; ``coarse``: whether the motion stands out of its noise above every
+    corner that the rate allows; ``fastest`` rad/s of the model."""
 
     mass: np.ndarray
     damping: np.ndarray
@@ -39,6 +44,7 @@ class FirstValues:
     corner: float
     decimation: int
     trim: int
+    coarse: bool = False
 
     @property
     def fastest(self):
@@ -51,7 +57,7 @@ class FirstValues:
 def first_values(runs, forces, rate, order, quasi_static=False):
     """FirstValues of ``runs`` [(n, m)] of motions in SI, their ``order`` of derivative; ``forces`` [(n, m)], None of
     free motions. ``quasi_static``: without a time, so that stiffness alone counts."""
-    corner = _corner(runs, rate)
+    corner, coarse = _corner(runs, rate)
     decimation = max(1, int(rate / (_KEPT * corner)))
     shortest = min(run.shape[1] for run in runs)
     trim = int(min(np.ceil(_TRIM * rate / corner), shortest // 10))
@@ -72,7 +78,7 @@ def first_values(runs, forces, rate, order, quasi_static=False):
     noise = np.maximum(_white(left, 2), 1e-3 * size)
     return FirstValues(mass, fitted["damping"], fitted["stiffness"], fitted["constant"],
                        np.sqrt(np.mean(left**2, axis=1)) / np.maximum(size, 1e-300), noise, size, turned,
-                       corner, decimation, trim)
+                       corner, decimation, trim, coarse and not quasi_static)
 
 
 def channel_noise(values):
@@ -123,16 +129,18 @@ def _white(values, order):
 
 
 def _corner(runs, rate):
-    """Frequency up to which the motions stand out of their noise."""
-    highest = _LOWEST * rate
+    """(Frequency up to which the motions stand out of their noise, whether they do beyond what the rate allows)."""
+    highest, coarse = _LOWEST * rate, False
     for run in runs:
         for values in run:
             frequency, density = scipy.signal.welch(scipy.signal.detrend(values), rate,
                                                     nperseg=min(len(values), 1024))
             floor = np.median(density[frequency > 0.35 * rate])
-            over = frequency[density > _OVER * max(floor, 1e-30 * density.max())]
-            highest = max(highest, over.max() if len(over) else 0.0)
-    return float(f"{np.clip(highest, _LOWEST * rate, _HIGHEST * rate):.2g}")
+            over = density > _OVER * max(floor, 1e-30 * density.max())
+            highest = max(highest, frequency[over].max(initial=0.0))
+            inertia = np.where(over, density * frequency**4, 0.0)
+            coarse |= bool(inertia[frequency > _COARSE * rate].sum() > _MATTERS * inertia.sum())
+    return float(f"{np.clip(highest, _LOWEST * rate, _HIGHEST * rate):.2g}"), coarse
 
 
 def _terms(run, force, rate, order, corner, trim, decimation):
@@ -142,10 +150,13 @@ def _terms(run, force, rate, order, corner, trim, decimation):
     def smooth(values):
         return scipy.signal.sosfiltfilt(low, values, axis=1, padlen=min(30, values.shape[1] - 1))
 
-    measured = smooth(run)
-    chain = {order: measured}
+    chain, spline = {order: smooth(run)}, None
+    if order < 2 and run.shape[1] > _SPLINE:        # differences lose much of an acceleration of a few samples a period
+        at = np.arange(run.shape[1])
+        spline = scipy.interpolate.make_interp_spline(at, chain[order], k=_SPLINE, axis=1)
     for k in range(order + 1, 3):
-        chain[k] = np.gradient(chain[k - 1], 1 / rate, axis=1)
+        chain[k] = (np.gradient(chain[k - 1], 1 / rate, axis=1) if spline is None else
+                    spline.derivative(k - order)(at) * rate**(k - order))
     for k in range(order - 1, -1, -1):
         chain[k] = scipy.signal.detrend(scipy.integrate.cumulative_trapezoid(
             chain[k + 1] - chain[k + 1].mean(axis=1, keepdims=True), dx=1 / rate, axis=1, initial=0.0), axis=1)

@@ -23,6 +23,17 @@ def test_mass_damping_and_stiffness_come_back():
     assert found.left[0] < 0.02 and not found.reversed[0]
 
 
+@pytest.mark.exact
+def test_nine_samples_a_period_give_the_mass_and_are_told_to_be_coarse():
+    """Of m x'' + k x = f in closed form; tones up to a quarter of the rate."""
+    tones = [(2 * np.pi * RATE / samples, 0.01) for samples in (60.0, 9.0, 4.0)]
+    motion = sum(size * np.sin(w * TIME + w) for w, size in tones)
+    force = sum(size * (300.0 - 2.0 * w**2) * np.sin(w * TIME + w) for w, size in tones)
+    found = first_values([motion[None]], [force[None]], RATE, 0)
+    assert found.coarse and found.mass[0, 0] == pytest.approx(2.0, rel=0.005)
+    assert not first_values([driven()[0]], [driven()[1]], RATE, 0).coarse
+
+
 def test_a_reversed_force_is_turned_and_told():
     motion, force = driven()
     found = first_values([motion], [-force], RATE, 0)
