@@ -14,12 +14,15 @@ from pipeline.recordings.survey.roles import roles
 #: runs below which records are cut; samples of a piece that a first case takes; share of the motion up to which a run
 #: begins at rest
 _RUNS, _FEWEST, _AT_REST = 3, 20, 0.02
+#: mean of a position over its largest excursion beyond which its zero is another one than that of a model
+_AWAY = 10.0
 
 
 @dataclass(frozen=True)
 class Rig:
     """What a case is written from: ``files`` [Contents], ``runs`` [{run: {setting: value}}] of each, ``roles``,
-    ``values`` (FirstValues), ``held_out`` run or None, ``noise`` {channel: SI value}, ``start`` and ``remarks``."""
+    ``values`` (FirstValues), ``held_out`` run or None, ``noise`` {channel: SI value}, ``zeros`` {channel: SI value of a
+    position far from 0}, ``start`` and ``remarks``."""
 
     files: list
     runs: list
@@ -28,6 +31,7 @@ class Rig:
     values: object
     held_out: str | None
     noise: dict
+    zeros: dict
     start: str | None
     remarks: list
 
@@ -69,7 +73,7 @@ def rig(paths):
     held_out = _held_out(files, chosen, data)
     fitted = {name: each for name, each in data.items() if name != held_out}
     return Rig(files, runs, how, chosen, _values(files, chosen, fitted, used), held_out, _noise(chosen, fitted),
-               _start(chosen, data), remarks)
+               _zeros(chosen, fitted), _start(chosen, data), remarks)
 
 
 def si(signal, values):
@@ -133,6 +137,17 @@ def _noise(chosen, data):
     """{channel: SI} the median over the runs."""
     return {s.name: float(np.median([channel_noise(si(s, values[s.name])) for values, _ in data.values()]))
             for s in chosen.responses}
+
+
+def _zeros(chosen, data):
+    """{channel: SI} means of positions that lie far off 0 for what they move by."""
+    zeros = {}
+    for s in chosen.responses if chosen.order == 0 else ():
+        runs = [si(s, values[s.name]) for values, _ in data.values()]
+        mean = float(np.median([run.mean() for run in runs]))
+        if abs(mean) > _AWAY * max(map(np.ptp, runs)):
+            zeros[s.name] = mean
+    return zeros
 
 
 def _start(chosen, data):

@@ -257,6 +257,10 @@ def _bench(rig, bodies):
             lines.append("  start: fitted                          # runs begin in motion; rest: at rest")
     offsets = [f"inputs.weight_{k + 1}.offset: {force:.4g} {'N m' if turns[k] else 'N'}"
                for k, force in _weights(rig).items()]
+    units = {s.name: "rad" if turn else "m" for s, turn in zip(roles.responses, turns, strict=True)}
+    if rig.zeros and not offsets:
+        zeros = ", ".join(f"channels.{name}.offset: {value:.6g} {units[name]}" for name, value in rig.zeros.items())
+        lines.append(f"  corrections: {{{zeros}}}   # <- where it is in equilibrium")
     if offsets:
         lines.append(f"  corrections: {{{', '.join(offsets)}}}"
                      "   # <- weight = mass x 9.81 m/s^2, - where the channel counts upwards")

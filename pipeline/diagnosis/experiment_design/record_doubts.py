@@ -15,6 +15,8 @@ _ON_END = 0.8
 _COPY, _FEW, _PERIODS, _A_PERIOD = 0.99999, 50, 3, 8
 #: runs that rules over operating points need
 _RUNS = 3
+#: mean of a position over its largest excursion beyond which its zero is another one than that of the model
+_AWAY = 10.0
 #: sizes beyond which a unit is doubted, by SI unit: of a swing about its mean
 _SIZES = {"m": (1e-9, 100.0), "rad": (1e-6, 60.0), "m/s^2": (1e-6, 1e5), "N": (1e-9, 1e8), "N m": (1e-9, 1e7),
           "m/s": (1e-9, 1e3)}
@@ -65,6 +67,12 @@ def _of_channel(name, runs):
     if worst is not None and coarse[worst] > _COARSE:
         yield (f"{name} has steps of {100 * coarse[worst]:.0f} % of its standard deviation in {worst}: motions below"
                " are not seen; its noise is at least the step over 3.5")
+    channel = runs[next(iter(parts))].channels[name]
+    mean, swing = np.median([values.mean() for values in parts.values()]), max(map(np.ptp, parts.values()))
+    if str(channel.measures) == "displacement" and abs(mean) > _AWAY * swing > 0:
+        place = f"{mean:.4g} {channel.unit}"
+        yield (f"{name} lies at {place} and moves by {swing:.2g} {channel.unit}: sizes of laws follow its distance from"
+               f" 0; state its zero, bench.corrections: {{channels.{name}.offset: {place}}}")
     unit = str(next(iter(runs.values())).channels[name].unit) if name in next(iter(runs.values())).channels else ""
     low, high = _SIZES.get(unit, (0.0, np.inf))
     size = max((values.std() for values in parts.values()), default=0.0)

@@ -29,6 +29,8 @@ def test_each_fault_has_its_sentence():
     assert "it rests there" in told(x=np.append(wave()[:-300], np.full(300, 0.02)))
     assert "has steps of" in told(x=np.round(wave(), 2) + 0.0)
     assert "x and y are one another's copy" in told(x=wave(), y=wave())
+    assert "channels.x.offset: -0.11 m" in told(x=wave() / 10 - 0.11)
+    assert "offset" not in told(x=wave() + 0.05)
     assert "is its unit right" in told(x=1e5 * wave())
     assert "periods of x" in told(x=wave(frequency=0.15))
     assert "periods of x" not in told(x=wave(frequency=0.15), free=False)
