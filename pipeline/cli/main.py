@@ -11,6 +11,7 @@ import click
 
 import stages
 from pipeline import __version__
+from pipeline.cli.bench.catalogue import catalogue
 from pipeline.cli.bench.check import check
 from pipeline.cli.bench.data import data
 from pipeline.cli.facts import facts
@@ -292,6 +293,7 @@ def plan(config, overrides, file):
 
 cli.add_command(data)
 cli.add_command(check)
+cli.add_command(catalogue)
 cli.add_command(run_export)
 cli.add_command(facts)
 cli.add_command(compiled)

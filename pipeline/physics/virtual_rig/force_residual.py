@@ -124,7 +124,8 @@ def rate_doubt(bench, run, measured, corner, order=4):
     less, more = (_forth_and_back(_low_pass(order, f / highest), motion) if f < highest else motion
                   for f in (low, high))
     added = np.gradient(more - less, 1 / run.sample_rate, axis=1)
-    return np.sqrt(scipy.ndimage.uniform_filter1d(added**2, 2 * int(run.sample_rate / low) + 1, mode="nearest"))
+    power = scipy.ndimage.uniform_filter1d(added**2, 2 * int(run.sample_rate / low) + 1, mode="nearest")
+    return np.sqrt(np.maximum(power, 0.0))      # running sums round below 0
 
 
 def forces_missing(bench, run, motion, corner=None):
