@@ -1,16 +1,25 @@
 """Stage matrices: a system that another program wrote as matrices."""
 
-import numpy as np
+from dataclasses import replace
 
+import numpy as np
+import scipy
+
+from pipeline.case_models.matrices import constraints
 from pipeline.case_models.matrices.dependence import summands
 from pipeline.case_models.matrices.sections import Term
+from pipeline.case_models.matrices.symmetry import as_meant
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.contract.errors import first_of
+from pipeline.decks.entries import named
 from pipeline.decks.matrix_files import read
 from pipeline.products import Matrices, MatrixTerm
 
 KINDS = ("mass", "damping", "stiffness", "loss")
 #: a mass matrix is symmetric to this share of its largest entry
 _SYMMETRIC = 1e-8
+#: degrees of freedom that a remark names
+_NAMED = 6
 
 
 class Settings(Section):
@@ -47,35 +56,81 @@ def matrices(settings: Settings, context: Context) -> Matrices:
 
     Method:
     The system was read as matrices of mass, damping, stiffness and hysteretic loss; terms are given for
-    {reference_speed} and one coefficient of friction, and change with both as stated.
+    {reference_speed} and one coefficient of friction, and change with both as stated. Degrees of freedom that penalties
+    hold on the diagonal of the stiffness were taken out.
     """
-    held = {name: (kind, term, read(term.file, term.variable)) for kind in KINDS
-            for name, term in getattr(settings, kind).items()}
-    labels, size = _freedoms(held)
-    for name, (kind, _, entries) in held.items():
+    given = {name: (kind, term, read(term.file, term.variable)) for kind in KINDS
+             for name, term in getattr(settings, kind).items()}
+    labels, size = _freedoms(given)
+    terms, remarks = {}, []
+    for name, (kind, term, entries) in given.items():
+        where = f"matrices.{kind}.{name}"
+        changes = any(friction for *_, friction in summands(term.times, f"{where}.times"))
+        entries, remark = as_meant(entries, kind, term, changes, size, where)
         if kind == "mass":
-            _refuse_masses(entries.matrix(), f"matrices.{kind}.{name}")
-    terms = {name: _term(kind, term, *_placed(entries, labels), f"matrices.{kind}.{name}")
-             for name, (kind, term, entries) in held.items()}
-    for name, (_, _, entries) in held.items():
-        if entries.halved:
-            context.log(f"{name}: one triangle is given, and the other was added")
-    return Matrices(size=size, node=labels[:, 0], direction=labels[:, 1], reference_speed=settings.reference_speed,
-                    terms=terms)
+            _refuse_masses(entries.matrix(), f"{where}: {term.file.name}")
+        terms[name] = _term(kind, term, *_placed(entries, labels), where)
+        remarks += [remark] if remark else []
+    kept, told = _kept(terms, size, labels)
+    for remark in (remarks := remarks + told):
+        context.note(remark)
+    if len(kept) < size:
+        terms = {name: _without(term, kept, size) for name, term in terms.items()}
+    return Matrices(size=len(kept), node=labels[kept, 0] if len(labels) else [],
+                    direction=labels[kept, 1] if len(labels) else [], reference_speed=settings.reference_speed,
+                    constrained=np.setdiff1d(np.arange(size), kept), remark=remarks, terms=terms)
 
 
-def _freedoms(held):
+def _kept(terms, size, labels):
+    """(indices of the degrees of freedom that are kept, remarks on the others)."""
+    sums = {kind: sum((abs(_matrix(term, size)) * abs(term.coefficient).sum() for term in terms.values()
+                       if str(term.kind) == kind), scipy.sparse.csr_matrix((size, size))) for kind in KINDS}
+    stiff = constraints.held(sums["stiffness"], sums["mass"].diagonal())
+    empty = constraints.empty([*sums.values()], stiff)
+    if len(stiff) + len(empty) == size:
+        raise ConfigError("matrices", "degrees of freedom that can move", "none", "is every one of them constrained?")
+    told = []
+    if len(stiff):
+        largest = sums["stiffness"].diagonal()[stiff].max()
+        told.append(f"{_counted(stiff, size, labels)}: held by a penalty of up to {largest:.3g} on the diagonal of the"
+                    " stiffness, as a constraint is written, and taken out of the system")
+    if len(empty):
+        told.append(f"{_counted(empty, size, labels)}: without entries{' beside these' if len(stiff) else ''}, and"
+                    " taken out of the system")
+    return np.setdiff1d(np.arange(size), np.concatenate((stiff, empty))), told
+
+
+def _counted(chosen, size, labels):
+    """How many degrees of freedom of the whole ``size`` were ``chosen``, and which."""
+    return (f"matrices: {len(chosen)} of {size} degrees of freedom"
+            f" ({first_of([named(labels, k) for k in chosen], _NAMED)})")
+
+
+def _matrix(term, size):
+    return scipy.sparse.csr_matrix((term.value, (term.row, term.column)), (size, size))
+
+
+def _without(term, kept, size):
+    """The MatrixTerm with the degrees of freedom that are ``kept`` of the whole ``size``."""
+    place = np.full(size, -1)
+    place[kept] = np.arange(len(kept))
+    row, column = place[term.row], place[term.column]
+    inside = (row >= 0) & (column >= 0)
+    return replace(term, row=row[inside], column=column[inside], value=term.value[inside])
+
+
+def _freedoms(given):
     """(labels (n, 2) in order, none where rows are counted; number of degrees of freedom n)."""
-    labelled = {name: entries.label for name, (_, _, entries) in held.items() if entries.label is not None}
-    sizes = {name: entries.size for name, (_, _, entries) in held.items()}
+    labelled = {name: entries.label for name, (_, _, entries) in given.items() if entries.label is not None}
+    sizes = {name: entries.size for name, (_, _, entries) in given.items()}
     if not labelled:
         largest = max(sizes.values())
         if len(set(sizes.values())) > 1:
             raise ConfigError("matrices", "matrices of one size", ", ".join(f"{n}: {k}" for n, k in sizes.items()))
         return np.empty((0, 2), int), largest
-    if len(labelled) < len(held):
+    if len(labelled) < len(given):
         raise ConfigError("matrices", "nodes and directions in all files or in none",
-                          f"none in {', '.join(set(held) - set(labelled))}")
+                          f"none in {', '.join(set(given) - set(labelled))}")
     labels = np.unique(np.concatenate(list(labelled.values())), axis=0)
     return labels, len(labels)
 

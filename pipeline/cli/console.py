@@ -92,6 +92,11 @@ class Bars:
         if self.console.is_terminal:
             (self._live.console if self._live else self.console).print(message, highlight=False, markup=False)
 
+    def note(self, message):
+        """One line that is told in a pipe too, there without a break."""
+        console = self._live.console if self._live else self.console
+        console.print(f"note: {message}", highlight=False, markup=False, soft_wrap=not console.is_terminal)
+
 
 @dataclass(frozen=True)
 class RunContext(context.Context):
@@ -130,3 +135,6 @@ class RunContext(context.Context):
 
     def log(self, message):
         self.bars.log(message)
+
+    def note(self, message):
+        self.bars.note(message)

@@ -85,3 +85,6 @@ class Context:
 
     def log(self, message):
         """One line for the user; silent here."""
+
+    def note(self, message):
+        """One line on what was guessed or left out of an input, which is told in a pipe too; silent here."""

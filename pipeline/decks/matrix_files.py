@@ -3,7 +3,11 @@
 Programs that number degrees of freedom by node and direction (Abaqus, Nastran) give labels; the others count rows.
 """
 
+import gzip
+import io
 import json
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +15,14 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.process import answered
-from pipeline.decks.entries import Entries, sound
+from pipeline.decks.entries import GENERAL, SKEW, SYMMETRIC, Entries, sound
 from pipeline.decks.labelled_matrices import abaqus, nastran
 
 _READERS = "a .mat (up to version 7), .mtx, .mtx.gz or .npz file, an .mtx of Abaqus, or a .pch with DMIG of Nastran"
-_MARKET = b"%%MatrixMarket"
+_MARKET = b"%%matrixmarket"
+#: head of a file of Matrix Market, in any case: format, field and form
+_HEAD = re.compile(rb"%%MatrixMarket\s+matrix\s+(coordinate|array)\s+(\S+)\s+(\S+)\s*", re.IGNORECASE)
+_EXPONENTS = bytes.maketrans(b"dD", b"eE")
 _NAMES, _ENTRIES = "names.json", "entries.npz"
 
 
@@ -32,7 +39,7 @@ def leave(path, folder, variable=None):
     found = _opened(Path(path), variable)
     extra = {} if found.label is None else {"label": found.label}
     np.savez(Path(folder) / _ENTRIES, row=found.row, column=found.column, value=found.value, **extra)
-    (Path(folder) / _NAMES).write_text(json.dumps({"size": found.size, "halved": found.halved}))
+    (Path(folder) / _NAMES).write_text(json.dumps({"size": found.size, "form": found.form, "halves": found.halves}))
 
 
 def _collected(folder):
@@ -49,11 +56,34 @@ def _opened(path, variable):
         return _of_matrix(path, _npz(path, variable))
     if suffix in (".mtx", ".mtx.gz"):
         with path.open("rb") as file:
-            plain = suffix == ".mtx" and not file.read(len(_MARKET)).startswith(_MARKET)
-        return abaqus(path) if plain else _of_matrix(path, scipy.io.mmread(path))
+            plain = suffix == ".mtx" and file.read(len(_MARKET)).lower() != _MARKET
+        return abaqus(path) if plain else _market(path)
     if suffix == ".pch":
         return nastran(path, variable)
     raise ConfigError(path, _READERS, repr(suffix))
+
+
+def _market(path):
+    """Entries of a file of Matrix Market, of which one triangle is there if its head says that it is symmetric.
+
+    Its exponents may be those of Fortran, which SciPy would pass over.
+    """
+    with (gzip.open if path.suffix == ".gz" else open)(path, "rb") as file:
+        head, content = file.readline(), file.read()
+    said = _HEAD.match(head)
+    if not said:
+        raise ConfigError(path, "a head '%%MatrixMarket matrix' with coordinate or array, field and form",
+                          repr(head[:60].decode(errors="replace")))
+    layout, field, form = (each.decode().lower() for each in said.groups())
+    if field == "pattern":
+        raise ConfigError(path, "entries with values", "a head that says 'pattern'")
+    form = SYMMETRIC if form == "hermitian" and field != "complex" else form
+    given = form if layout == "array" or form not in (SYMMETRIC, SKEW) else GENERAL
+    head = f"%%MatrixMarket matrix {layout} {field} {given}\n".encode()
+    found = _of_matrix(path, scipy.io.mmread(io.BytesIO(head + content.translate(_EXPONENTS))))
+    if form in (SYMMETRIC, SKEW):
+        return found.whole(path, form)
+    return replace(found, form=GENERAL if form == GENERAL else SYMMETRIC)
 
 
 def _npz(path, variable):

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import scipy
 
+from pipeline.case_models.matrices.symmetry import one_sided
 from pipeline.contract.received.files import write_new
 from pipeline.contract.store import write_companion
 from pipeline.exports.run_products import refuse_existing, safe_names
@@ -73,7 +74,8 @@ def _case(system, name, source, names, suffix):
         members = [term for term in system.terms if term.kind == kind]
         text += [f"  {kind}:\n"] if members else []
         text += [f"    {names[t.name]}: {{file: {names[t.name]}.{suffix}"
-                 + (f", times: {json.dumps(t.times)}" if t.times != "1" else "") + "}\n" for t in members]
+                 + (f", times: {json.dumps(t.times)}" if t.times != "1" else "")
+                 + ", symmetry: general" * one_sided(scipy.sparse.csr_matrix(t.matrix)) + "}\n" for t in members]
     speeds = ", ".join(f"{speed!r} rad/s" for speed in system.speeds or (system.speed,))
     text.append(f"\nmatrix_modes:\n  speeds: [{speeds}]\n  friction: {system.friction!r}\n"
                 f"  frequency_max: {system.highest!r} Hz\n  map_friction: {[*system.map_friction]}\n")

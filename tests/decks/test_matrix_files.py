@@ -1,11 +1,14 @@
 """Matrices from files: the same entries, whatever wrote them; one sentence for what is none."""
 
+import gzip
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy
 
 from pipeline.contract import ConfigError
-from pipeline.decks.matrix_files import read
+from pipeline.decks.matrix_files import _opened, read
 
 DENSE = np.array([[4.0, -1.5, 0.0], [-1.5, 5.0, 0.25], [0.0, 0.25, 6.0]])
 SPARSE = scipy.sparse.csr_matrix(DENSE)
@@ -33,6 +36,43 @@ def test_one_of_several_matrices_is_named(tmp_path):
         read(tmp_path / "a.mat")
     with pytest.raises(ConfigError, match="expected the matrix 'C', found K, M"):
         read(tmp_path / "a.mat", "C")
+
+
+SKEW = np.array([[0.0, -1.5, 0.0], [1.5, 0.0, -0.25], [0.0, 0.25, 0.0]])
+
+
+@pytest.mark.parametrize("kind", [np.asarray, scipy.sparse.coo_matrix], ids=["array", "coordinate"])
+@pytest.mark.parametrize("matrix, form", [(DENSE, "symmetric"), (SKEW, "skew-symmetric"), (SKEW, "general"),
+                                          (np.tril(DENSE), "general"), (DENSE, "hermitian")])
+def test_the_head_of_matrix_market_says_the_form(tmp_path, kind, matrix, form):
+    """SciPy writes one triangle where it may; the whole comes back."""
+    with gzip.open(tmp_path / "a.mtx.gz", "wb") as file:
+        scipy.io.mmwrite(file, kind(matrix + 0j if form == "hermitian" else matrix), symmetry=form)
+    found = _opened(tmp_path / "a.mtx.gz", None)
+    np.testing.assert_array_equal(found.matrix().toarray(), matrix)
+    assert found.form == form.replace("hermitian", "symmetric") and not found.halves
+
+
+def market(path, head, *lines):
+    path.write_text("\n".join((f"%%{head}", "% made by hand", *lines)) + "\n")
+    return _opened(Path(path), None)
+
+
+def test_matrix_market_of_other_writers(tmp_path):
+    """Fortran's exponents, which SciPy reads as 1; a head in other letters; the upper triangle, or both sides."""
+    path, symmetric = tmp_path / "a.mtx", "MatrixMarket matrix coordinate real symmetric"
+    for head, lines in ((symmetric, ("1 1 4.D0", "2 1 -.15d+01", "2 2 0.5D+1")),
+                        ("MATRIXMARKET Matrix Coordinate Real Symmetric", ("1 1 4", "1 2 -1.5", "2 2 5"))):
+        found = market(path, head, "2 2 3", *lines)
+        np.testing.assert_array_equal(found.matrix().toarray(), DENSE[:2, :2])
+    found = market(path, symmetric, "2 2 4", "1 1 4", "1 2 -1.5", "2 1 -1.5", "2 2 5")
+    np.testing.assert_array_equal(found.matrix().toarray(), DENSE[:2, :2])
+    with pytest.raises(ConfigError, match="a symmetric matrix.* found -1.5 and 3 at row 1 and row 2"):
+        market(path, symmetric, "2 2 4", "1 1 4", "1 2 -1.5", "2 1 3", "2 2 5")
+    with pytest.raises(ConfigError, match="expected entries with values, found a head that says 'pattern'"):
+        market(path, "MatrixMarket matrix coordinate pattern symmetric", "2 2 1", "1 1")
+    with pytest.raises(ConfigError, match="expected a head '%%MatrixMarket matrix'"):
+        market(path, "MatrixMarket vector", "2 2 1", "1 1")
 
 
 @pytest.mark.parametrize("matrix, told", [

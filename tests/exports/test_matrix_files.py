@@ -72,9 +72,10 @@ def test_unstable_roots_of_the_full_matrices_come_back(brake, tmp_path):
 def test_what_was_given_as_matrices_is_given_again(tmp_path):
     """Terms with their dependence, by number or by node and direction."""
     terms = {"m": ("mass", "1", [[2.0, 0.0], [0.0, 1.0]]), "q": ("stiffness", "friction/speed - 1", [[0, 3.0], [1, 0]]),
-             "h": ("loss", "1", [[0.1, 0.0], [0.0, 0.0]])}
+             "h": ("loss", "1", [[0.1, 0.0], [0.0, 0.0]]), "c": ("stiffness", "1", [[1.0, 0.5], [0.0, 1.0]])}
     entries = {name: scipy.sparse.coo_matrix(matrix) for name, (_, _, matrix) in terms.items()}
-    run = written(tmp_path, Matrices(size=2, node=[5, 5], direction=[1, 3], reference_speed=8.0, terms={
+    run = written(tmp_path, Matrices(size=2, node=[5, 5], direction=[1, 3], reference_speed=8.0, constrained=[],
+                                     remark=[], terms={
         name: MatrixTerm(kind=kind, times=times, source="a file", row=entries[name].row, column=entries[name].col,
                          value=entries[name].data, coefficient=[1.0], speed_power=[0], friction_power=[0])
         for name, (kind, times, _) in terms.items()}))
@@ -83,6 +84,8 @@ def test_what_was_given_as_matrices_is_given_again(tmp_path):
     assert "units are as they were given" in case_file.read_text()
     assert not (tmp_path / "again" / "rows.npz").exists()
     assert (tmp_path / "again" / "freedoms.csv").read_text() == "row,node,direction\n1,5,1\n2,5,3\n"
+    text = case_file.read_text()
+    assert "c: {file: c.mtx, symmetry: general}" in text and text.count("symmetry") == 1
     given, _ = ran(case_file, solved=False)
     assert float(given.reference_speed) == 8.0
     for name, (kind, times, matrix) in terms.items():

@@ -46,9 +46,11 @@ def test_a_stable_system_is_told_so():
 def test_the_page_and_the_file_hold_both_chapters():
     term = MatrixTerm(kind="mass", times="1", source="m.mtx", row=[0], column=[0], value=[1.0], coefficient=[1.0],
                       speed_power=[0], friction_power=[0])
-    products = {"matrices": Matrices(size=1, node=[], direction=[], reference_speed=1.0, terms={"M": term}),
+    products = {"matrices": Matrices(size=1, node=[], direction=[], reference_speed=1.0, constrained=[],
+                                     remark=["matrices: 1 of 2 degrees of freedom (row 2): held"], terms={"M": term}),
                 "matrix_modes": modes()}
     chapters = [write() for write in plan(products, Look(dpi=60)).values()]
     assert [c.anchor for c in chapters] == ["matrices", "matrix_modes"] and len(chapters[1].blocks) == 2
+    assert chapters[0].notes == ("Matrices: 1 of 2 degrees of freedom (row 2): held.",)
     text = verdict_text(verdict(products, ()), products)
     assert '"squeal_can_start": true' in text and '"Q": 90.0' in text

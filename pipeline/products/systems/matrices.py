@@ -18,7 +18,7 @@ class MatrixTerm:
     friction_power: Array = count("summand", "powers n of the coefficient of friction")
 
 
-@product(version=1)
+@product(version=2)
 class Matrices:
     """s^2 M + s C + K + i H, each a sum of terms."""
 
@@ -26,6 +26,9 @@ class Matrices:
     node: Array = count("freedom", "node of each, empty where the files merely count them")
     direction: Array = count("freedom", "direction of each, 1 to 6, of the node")
     reference_speed: Array = quantity("rad/s", "", "speed for which the terms are given")
+    constrained: Array = count("constrained", "degrees of freedom that were taken out, since constraints hold them, counted"
+                                              " from 0 among all of the files")
+    remark: Array = text("remark", "what was taken out, and what was guessed of the files")
     terms: dict[str, MatrixTerm] = parts("terms by name")
 
 

@@ -11,6 +11,7 @@ from pipeline.cli.console import Bars, RunContext
 from pipeline.cli.main import cli
 from pipeline.contract import Context, ConvergenceError, case, runner, store
 from pipeline.contract.executors import choose, run_task
+from pipeline.contract.executors.long_tasks import Work, made
 from tests.commands import ROOT
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Compared, Doubled
@@ -63,6 +64,15 @@ def test_what_does_not_read_it_goes_on_meanwhile(job):
     assert here["fingerprint"] == there["fingerprint"] and here["cpu_seconds"] > 0
     assert context.told == ["2 channels"] and (job("beside").folder / "doubled.csv").exists()
     assert told(job("beside"), context) == [(name, False) for name in CHAINS["beside"]]
+
+
+def test_what_it_notes_is_kept_apart_from_what_it_tells():
+    def stage(context):
+        context.log("an aside")
+        context.note("k.mtx is taken as it stands")
+
+    done = made(Work(stage, {}, "superlu", Context().case))
+    assert done.told == ("an aside",) and done.noted == ("k.mtx is taken as it stands",)
 
 
 def test_what_reads_it_waits_and_so_do_variants(job):

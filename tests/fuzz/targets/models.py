@@ -30,7 +30,11 @@ _ENTRIES = [(i, j) for i, j in zip(*np.nonzero(_K), strict=True)]
 
 
 def _matrix(path, **given):
-    return matrix_files.read(path, **given).matrix().toarray()
+    """The matrix; of what Abaqus halves without saying so, with its other triangle."""
+    found = matrix_files.read(path, **given)
+    matrix = found.matrix().toarray()
+    half = found.halves and not np.triu(matrix, 1).any()
+    return found.whole(path, "symmetric").matrix().toarray() if half else matrix
 
 
 def _saved(write, name="file"):

@@ -20,6 +20,9 @@ TWO_PI = 2.0 * np.pi
 STRIP = 0.05
 #: roots about a shift, at first and at most, and shifts at most
 _NEAREST, _MOST, _SHIFTS = 40, 640, 200
+#: roots of which there are so many at most are found all at once, without iteration; infinite ones, of what has no
+#: mass, have inverses below this share of the largest
+_FEW, _INFINITE = 8, 1e-14
 #: radius of a disc over half the width of the strip, at least
 _WIDE = 1.5
 #: residual |T(s) x| / (|s|^2 |M x| + |s| |C x| + |K x|) above which a root is no root
@@ -42,7 +45,8 @@ class Mode:
 
 @dataclass(frozen=True)
 class Found:
-    """Modes with 0 < Im s <= the highest, by frequency; (d, 2) the discs that were searched: middle and radius, 1/s."""
+    """Modes with 0 < Im s <= the highest, by frequency; (d, 2) the discs that were searched: middle and radius, 1/s,
+    which is infinite where all roots were found."""
 
     modes: tuple
     discs: np.ndarray
@@ -88,6 +92,12 @@ def _about(matrices, shift, least, solver):
         return np.concatenate((moved, place + shift * moved))
 
     operator = scipy.sparse.linalg.LinearOperator((2 * size, 2 * size), inverse, dtype=complex)
+    if 2 * size <= _FEW:
+        inverted, vectors = np.linalg.eig(operator @ np.eye(2 * size))
+        finite = abs(inverted) > _INFINITE * abs(inverted).max()
+        roots = shift + 1 / inverted[finite]
+        return [_mode(matrices, root, vector[:size]) for root, vector in zip(roots, vectors.T[finite], strict=True)
+                ], np.inf
     count, most = min(_NEAREST, 2 * size - 2), min(_MOST, 2 * size - 2)
     while True:
         inverted, vectors = _largest(operator, count, shift)

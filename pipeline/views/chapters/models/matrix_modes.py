@@ -25,7 +25,8 @@ def system(matrices, look):
         f"{plural(int(matrices.size), 'degree')} of freedom{labels}, in the units"
         f" of the files; terms hold for {quantity(float(matrices.reference_speed), 'rad/s')}.",
         "Speed and friction below are those over which the terms change, each over that of the matrices.", (),
-        (Table(("term", "matrix", "times", "entries", "file"), rows, "Terms", (3,)),))
+        (Table(("term", "matrix", "times", "entries", "file"), rows, "Terms", (3,)),),
+        tuple(f"{str(remark)[0].upper()}{str(remark)[1:]}." for remark in matrices.remark))
 
 
 def chapter(modes, look):

@@ -68,3 +68,18 @@ def test_loss_factors_are_an_imaginary_stiffness():
     mode = with_left(found[2], matrices, "superlu")
     assert mode.root == pytest.approx(found[2].root, rel=1e-10)
     assert abs(np.vdot(mode.left, mode.right)) == pytest.approx(1.0)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("tied", [False, True])
+def test_few_roots_are_found_at_once(tied):
+    """One mass alone, or two that a multiplier without mass holds together."""
+    mass, damping, stiffness = 2.0, 3.0, 8e6
+    matrices = [np.array([[value]]) for value in (mass, damping, stiffness)]
+    if tied:
+        matrices = [np.pad(np.diag([value / 4, value * 3 / 4]), (0, 1)) for value in (mass, damping, stiffness)]
+        matrices[2][2, :2] = matrices[2][:2, 2] = 1e6, -1e6
+    found = strip_modes(tuple(map(scipy.sparse.csr_matrix, matrices)), 400.0, "superlu")
+    np.testing.assert_allclose(found.roots, [(-damping + 1j * np.sqrt(4 * mass * stiffness - damping**2)) / (2 * mass)],
+                               rtol=1e-10)
+    assert np.isinf(found.discs[:, 1]).all()
