@@ -8,13 +8,13 @@ from functools import partial
 from pipeline import __version__
 from pipeline.case_models.early.first_look import coarse
 from pipeline.contract import Products, store
-from pipeline.contract.errors import shortened
+from pipeline.contract.errors import sentence_of, shortened
 
 #: stages whose products change the answer
 ANSWERING = ("complex_modes", "convergence", "limit_cycle", "probability", "sensitivities", "design_search",
              "countermeasures")
-#: the variant of the case that is a first look, and the page
-LOOK, PAGE = "first_look", "report.html"
+#: the variant of the case that is a first look, the page, and what other programs read of it
+LOOK, PAGE, VERDICT = "first_look", "report.html", "verdict.json"
 
 
 class EarlyPages:
@@ -49,6 +49,25 @@ class EarlyPages:
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
             self._page = self._writer.submit(self._try, partial(self._follow, frozenset(self._done), coming[:-1]))
 
+    def end(self, errors):
+        """The page of what is done, where stages raised ``errors`` {name: error}; whether there is one."""
+        if self._page:
+            self._page.result()
+        if "report" in self._stages and self._done and errors:
+            self._try(partial(self._end, errors))
+            return (self._job.folder / PAGE).exists()
+        return False
+
+    def _end(self, errors):
+        from pipeline.views.pages.early import unfinished_page
+
+        left = [name for name in self._stages if name not in {*self._done, *errors, "report"}]
+        told = {name: sentence_of(error) for name, error in errors.items()}
+        page, verdict = unfinished_page(self._products(self._done), self._card(), told, left,
+                                        self._job.case.sections["report"])
+        self._job.announce(self._stages["report"], PAGE, page)
+        self._job.announce(self._stages["report"], VERDICT, verdict)
+
     def _look(self):
         changes = coarse(self._job.case.sections)
         if not changes:
@@ -80,10 +99,13 @@ class EarlyPages:
     def _follow(self, done, ahead):
         from pipeline.views.pages.early import later_page
 
+        self._show(*later_page(self._products(done), self._card(), ahead))
+
+    def _products(self, done):
+        """Products of the stages named in ``done``."""
         outputs = {name: stage.output for name, stage in self._stages.items() if name in done}
-        products = Products({name: lambda output=output: store.read(output, self._job.path(output))
-                             for name, output in outputs.items()})
-        self._show(*later_page(products, self._card(), ahead))
+        return Products({name: lambda output=output: store.read(output, self._job.path(output))
+                         for name, output in outputs.items()})
 
     def _card(self):
         return self._job.case.card(__version__)
