@@ -23,9 +23,10 @@ class EarlyPages:
     What goes wrong here is said, and leaves the run as it is.
     """
 
-    def __init__(self, job, context, say):
-        """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
-        self._job, self._context, self._say = job, context, say
+    def __init__(self, job, context, say, failed=()):
+        """``job``: a ChainRun, run whole; ``say(text)`` prints a line; ``failed``: names of stages that have, in which
+        others may come to be."""
+        self._job, self._context, self._say, self._failed = job, context, say, failed
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
         self._done, self._lock = set(), threading.Lock()
         self._writer, self._page = ThreadPoolExecutor(1), None      # pages are made beside the stage that follows
@@ -45,7 +46,7 @@ class EarlyPages:
             self._page.result()
         with self._lock:
             self._done.add(stage.name)
-        coming = [name for name in self._stages if name not in self._done]
+        coming = [name for name in self._stages if name not in self._done and name not in self._failed]
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
             self._page = self._writer.submit(self._try, partial(self._follow, frozenset(self._done), coming[:-1]))
 

@@ -114,7 +114,7 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     work, early, unfinished = executors.choose(workers or os.cpu_count() or 1, scheduler), None, Unfinished(_go_on)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
-        early = EarlyPages(job, context, click.echo) if first is None and last is None else None
+        early = EarlyPages(job, context, click.echo, unfinished.errors) if first is None and last is None else None
         pace = Pace(job, getattr(work, "workers", 1))
         computed = job.execute(context, first, last, frozenset(force), partial(_report, early, pace),
                                lambda: _open(early, pace, job.plan(first, last, frozenset(force))), unfinished)

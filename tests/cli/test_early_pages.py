@@ -138,6 +138,15 @@ def test_a_stage_that_is_done_after_later_ones_changes_their_page(products, monk
     assert len(said) == 2 and said[1].endswith("Being computed: squeal.")
 
 
+def test_a_stage_that_has_failed_is_not_to_come(products):
+    failed = {}
+    early, said = EarlyPages(Job(), Context(), (told := []).append, failed), told
+    failed["convergence"] = ConvergenceError("a", "b")
+    early.follow(early._stages["complex_modes"])
+    early.close()
+    assert said[0].endswith("Being computed: structure, comparison.")
+
+
 def test_a_page_is_there_before_the_next_stage_is_done(products, monkeypatch):
     """So that none is written after that of the report."""
     job, order, later = Job(), [], threading.Event()
