@@ -106,11 +106,7 @@ _VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 
 def rotated(elasticity, axes):
     """(6, 6) elasticity along x, y, z of one that is given along ``axes``, (3, 3) whose rows are unit vectors."""
-    tensor = np.empty((3,) * 4)
-    for row, (i, j) in enumerate(_VOIGT):
-        for column, (k, m) in enumerate(_VOIGT):
-            for pair in ((i, j), (j, i)):
-                tensor[(*pair, k, m)] = tensor[(*pair, m, k)] = elasticity[row, column]
-    turned = np.einsum("abcd,ai,bj,ck,dl->ijkl", tensor, axes, axes, axes, axes, optimize=True)
     first, second = np.array(_VOIGT).T
-    return turned[first[:, None], second[:, None], first, second]
+    turned = axes[first][:, first] * axes[second][:, second]    # stress along the axes -> along x, y, z (Bond)
+    turned += np.where(first != second, 1.0, 0.0)[:, None] * axes[second][:, first] * axes[first][:, second]
+    return turned.T @ elasticity @ turned
