@@ -8,7 +8,7 @@ import scipy
 
 from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
 from pipeline.case_models.bodies.brake_joints import Joints
-from pipeline.case_models.bodies.mesh_files import BODIES, Units, with_deck
+from pipeline.case_models.bodies.mesh_files import BODIES, FileAxes, Units, with_deck
 from pipeline.contract import ConfigError, Context, InputFile, Names, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
 from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
@@ -45,6 +45,7 @@ class Settings(Section):
 
     mesh_file: InputFile | None = option(None, "deck of several bodies, those of mesh_sets")
     mesh_units: Units = option("SI", "units of this deck")
+    mesh_axes: FileAxes = option((), "axes of this deck that become x (middle of the pads), y and z (axis of the disc)")
     mesh_sets: dict[Literal[BODIES], Names] = option({}, "sets of elements, or instances, of this deck that are the"
                                                      " disc, pad_outer, pad_inner, caliper, bracket and piston")
     disc: Disc = option(Disc(), "brake disc")

@@ -88,9 +88,9 @@ class Bars:
             self._live.remove_task(task)
 
     def log(self, message):
-        """One line above the bars."""
-        if self.console.is_terminal:
-            (self._live.console if self._live else self.console).print(message, highlight=False, markup=False)
+        """One line above the bars; the same in a pipe or a file, which have none."""
+        (self._live.console if self._live else self.console).print(message, highlight=False, markup=False,
+                                                                   soft_wrap=not self.console.is_terminal)
 
     def note(self, message):
         """One line that is told in a pipe too, there without a break."""

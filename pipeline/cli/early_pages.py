@@ -8,13 +8,13 @@ from functools import partial
 from pipeline import __version__
 from pipeline.case_models.early.first_look import coarse
 from pipeline.contract import Products, store
-from pipeline.contract.errors import shortened
+from pipeline.contract.errors import sentence_of, shortened
 
 #: stages whose products change the answer
 ANSWERING = ("complex_modes", "convergence", "limit_cycle", "probability", "sensitivities", "design_search",
              "countermeasures")
-#: the variant of the case that is a first look, and the page
-LOOK, PAGE = "first_look", "report.html"
+#: the variant of the case that is a first look, the page, and what other programs read of it
+LOOK, PAGE, VERDICT = "first_look", "report.html", "verdict.json"
 
 
 class EarlyPages:
@@ -23,9 +23,10 @@ class EarlyPages:
     What goes wrong here is said, and leaves the run as it is.
     """
 
-    def __init__(self, job, context, say):
-        """``job``: a ChainRun, run whole; ``say(text)`` prints a line."""
-        self._job, self._context, self._say = job, context, say
+    def __init__(self, job, context, say, failed=()):
+        """``job``: a ChainRun, run whole; ``say(text)`` prints a line; ``failed``: names of stages that have, in which
+        others may come to be."""
+        self._job, self._context, self._say, self._failed = job, context, say, failed
         self._begin, self._stages = time.monotonic(), {stage.name: stage for stage in job.case.stages}
         self._done, self._lock = set(), threading.Lock()
         self._writer, self._page = ThreadPoolExecutor(1), None      # pages are made beside the stage that follows
@@ -45,9 +46,28 @@ class EarlyPages:
             self._page.result()
         with self._lock:
             self._done.add(stage.name)
-        coming = [name for name in self._stages if name not in self._done]
+        coming = [name for name in self._stages if name not in self._done and name not in self._failed]
         if computed and stage.name in ANSWERING and coming[:-1] and coming[-1] == "report":
             self._page = self._writer.submit(self._try, partial(self._follow, frozenset(self._done), coming[:-1]))
+
+    def end(self, errors):
+        """The page of what is done, where stages raised ``errors`` {name: error}; whether there is one."""
+        if self._page:
+            self._page.result()
+        if "report" in self._stages and self._done and errors:
+            self._try(partial(self._end, errors))
+            return (self._job.folder / PAGE).exists()
+        return False
+
+    def _end(self, errors):
+        from pipeline.views.pages.early import unfinished_page
+
+        left = [name for name in self._stages if name not in {*self._done, *errors, "report"}]
+        told = {name: sentence_of(error) for name, error in errors.items()}
+        page, verdict = unfinished_page(self._products(self._done), self._card(), told, left,
+                                        self._job.case.sections["report"])
+        self._job.announce(self._stages["report"], PAGE, page)
+        self._job.announce(self._stages["report"], VERDICT, verdict)
 
     def _look(self):
         changes = coarse(self._job.case.sections)
@@ -80,10 +100,13 @@ class EarlyPages:
     def _follow(self, done, ahead):
         from pipeline.views.pages.early import later_page
 
+        self._show(*later_page(self._products(done), self._card(), ahead))
+
+    def _products(self, done):
+        """Products of the stages named in ``done``."""
         outputs = {name: stage.output for name, stage in self._stages.items() if name in done}
-        products = Products({name: lambda output=output: store.read(output, self._job.path(output))
-                             for name, output in outputs.items()})
-        self._show(*later_page(products, self._card(), ahead))
+        return Products({name: lambda output=output: store.read(output, self._job.path(output))
+                         for name, output in outputs.items()})
 
     def _card(self):
         return self._job.case.card(__version__)

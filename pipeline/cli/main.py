@@ -99,6 +99,7 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     from pipeline.cli.early_pages import EarlyPages
     from pipeline.cli.pace import Pace
     from pipeline.contract import executors
+    from pipeline.contract.executors.unfinished import Unfinished
 
     first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
     names = [s.name for s in job.case.stages]
@@ -111,15 +112,19 @@ def _execute(job, first, last, force, dry_run, workers, scheduler):
     if dry_run:
         _show_plan(job.plan(first, last, frozenset(force)))
         return
-    work, early = executors.choose(workers or os.cpu_count() or 1, scheduler), None
+    work, early, unfinished = executors.choose(workers or os.cpu_count() or 1, scheduler), None, Unfinished(_go_on)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
-        early = EarlyPages(job, context, click.echo) if first is None and last is None else None
+        early = EarlyPages(job, context, click.echo, unfinished.errors) if first is None and last is None else None
         pace = Pace(job, getattr(work, "workers", 1))
         computed = job.execute(context, first, last, frozenset(force), partial(_report, early, pace),
-                               lambda: _open(early, pace, job.plan(first, last, frozenset(force))))
+                               lambda: _open(early, pace, job.plan(first, last, frozenset(force))), unfinished)
     except KeyboardInterrupt:       # nobody waits for a long task
         work.stop()
+        raise
+    except Exception:
+        if early and early.end(unfinished.errors):
+            click.echo(f"report of what was computed: {job.folder / 'report.html'}")
         raise
     finally:
         work.close()
@@ -180,6 +185,11 @@ def _report(early, pace, state, seconds):
         click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
     if early and not state.variant:
         early.follow(state.stage, computed=seconds is not None and seconds > _WORTH_A_PAGE)
+
+
+def _go_on(name, error):
+    """Say that the chain goes on without a stage; what it raised is told at the end."""
+    click.echo(f"{name:<16} not finished; what does not need it goes on ({_because([str(error)])})", err=True)
 
 
 def _because(reasons, most=3, longest=100):

@@ -75,8 +75,8 @@ class CaseFile:
     def varied(self, changes):
         """The case with ``changes`` {'stage.key': value} to its settings, as a YAML would give them."""
         document = documents.unshared(self.document)
-        for key, value in changes.items():
-            _set(document, key.split("."), value, f"variant: {key}")
+        for key, value in _kinds_first(changes.items()):
+            _change(document, self.stages, key.split("."), value, f"variant: {key}")
         varied = replace(self, document=document)
         changed = {key.partition(".")[0] for key in changes}
         varied._filled.update({name: each for name, each in self._filled.items() if name not in changed})
@@ -166,12 +166,12 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     """
     path = Path(path)
     document, folders = _read(path, chains)
-    for item in overrides:
-        _override(document, item)
     name = document.get("chain")
     if not isinstance(name, str) or name not in chains:
         raise ConfigError(f"{path}: chain", f"one of {', '.join(chains)}", repr(name))
     stages = tuple(stage_of(each) for each in chains[name])
+    for _, item in _kinds_first((item.partition("=")[0], item) for item in overrides):
+        _override(document, stages, item)
     _check_keys(path, document, stages)
     case = CaseFile(path, document, stages, folders, measured, tuple(unread))
     case.check()
@@ -219,12 +219,30 @@ def _laid_over(base, overlay):
     return {**base, **{key: _laid_over(base.get(key), value) for key, value in overlay.items()}}
 
 
-def _override(document, item):
+def _kinds_first(pairs):
+    """``pairs`` (dotted key, ...), those before that say which kind a section is."""
+    return sorted(pairs, key=lambda pair: not pair[0].endswith(".kind"))
+
+
+def _override(document, stages, item):
     key, equals, text = item.partition("=")
     steps = key.split(".")
     if not equals or len(steps) < 2:
         raise ConfigError(f"--set {item}", "stage.key=value", repr(item))
-    _set(document, steps, documents.parse_value(text), f"--set {item}")
+    _change(document, stages, steps, documents.parse_value(text), f"--set {item}")
+
+
+def _change(document, stages, steps, value, item):
+    """Set the value at ``steps`` of a document in place; a section that becomes another kind loses what only its former
+    one had."""
+    _set(document, steps, value, item)
+    stage = next((each for each in stages if each.name == steps[0]), None)
+    if steps[-1] == "kind" and stage is not None and len(steps) > 2:
+        node = document
+        for step in steps[:-1]:
+            node = _step(node, step, item)
+        for key in settings.foreign(stage.settings, steps[1:-1], node):
+            del node[key]
 
 
 def _set(document, steps, value, item):

@@ -16,12 +16,13 @@ from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
 from pipeline.contract.executors.long_tasks import LongTasks
+from pipeline.contract.executors.unfinished import Unfinished
 from pipeline.contract.integrity import checksum, examined, seen
 from pipeline.contract.integrity.kept import Kept
 from pipeline.contract.integrity.lock import closed, locked
 from pipeline.contract.integrity.origin import git_commit, kernels, packages
-from pipeline.contract.integrity.verify import recorded
-from pipeline.contract.received import files, names
+from pipeline.contract.integrity.verify import of_companions, recorded
+from pipeline.contract.received import names
 from pipeline.contract.stage import Products, Sections
 
 
@@ -133,7 +134,7 @@ class ChainRun:
         if stored is None:
             reasons = [_unreadable(path)]
         else:
-            reasons += _of_companions(self.folder, stored["companions"])
+            reasons += of_companions(self.folder, stored["companions"])
         renewed = [p.name for p in self.filled(stage).values() if p and p.name in stale]
         renewed += [f"{argument} of {name}" for name, run, last, argument in self.variants(stage)
                     if any(each.reasons for each in run.needed(last, stale))]
@@ -187,10 +188,11 @@ class ChainRun:
         return self.case.stages[begin:end]
 
     def execute(self, context, first=None, last=None, force=frozenset(), report=lambda state, seconds: None,
-                opening=lambda: None):
+                opening=lambda: None, unfinished=None):
         """Compute what must be computed; ``report`` is called with (state, seconds or None) after each stage.
 
-        ``opening`` is called once the folder is locked, before all stages. Returns the number of stages computed.
+        ``opening`` is called once the folder is locked, before all stages; ``unfinished``: Unfinished, which learns
+        what fails. Returns the number of stages computed; raises the first error of a stage, after all that goes on.
         """
         planned = [] if os.access(self.folder, os.W_OK) else self.plan(first, last, force)
         if planned and not any(state.reasons for state in planned):     # nothing to write: it may be read-only
@@ -201,7 +203,7 @@ class ChainRun:
             new = self._examine()
             try:
                 opening()
-                return self._bring_all(self._span(first, last), context, force, report)
+                return self._bring_all(self._span(first, last), context, force, report, unfinished or Unfinished())
             finally:
                 self._note()
                 if new:
@@ -247,19 +249,24 @@ class ChainRun:
                                             if not seen.differs(self.folder / name, digest)}
         seen.note(self.folder, right)
 
-    def _bring_all(self, stages, context, force, report):
+    def _bring_all(self, stages, context, force, report, unfinished):
         """Bring the products of ``stages`` up to date, long tasks beside what does not need them; number computed."""
-        tasks, computed = LongTasks(self, context, report), 0
+        tasks, computed = LongTasks(self, context, report, unfinished), 0
         try:
             for stage in stages:
                 computed += tasks.gather(stage)
-                if not (stage.alone and context.spares and tasks.begin(self._forced(self.state(stage), force))):
-                    computed += self._bring(stage, context, force, report)
+                if unfinished.needed_by(stage, self.filled(stage).values()):
+                    continue
+                with unfinished.noted(stage):
+                    if not (stage.alone and context.spares and tasks.begin(self._forced(self.state(stage), force))):
+                        computed += self._bring(stage, context, force, report)
         except BrakechainError:     # what is under way is kept, as if it had come first
             with suppress(BrakechainError):
                 tasks.gather()
             raise
-        return computed + tasks.gather()
+        computed += tasks.gather()
+        unfinished.end()
+        return computed
 
     def _bring(self, stage, context, force, report):
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
@@ -380,13 +387,6 @@ def _stored(path):
         return {"fingerprint": json.loads(provenance["fingerprint"]), "companions": recorded(provenance)}
     except (ProductError, KeyError, ValueError, OSError, RuntimeError):
         return None
-
-
-def _of_companions(folder, companions):
-    """What is wrong with ``companions`` {name: digest} of a product, one phrase each."""
-    missing = [name for name in companions if not files.is_plain(folder / name)]
-    changed = [name for name in companions if name not in missing and seen.differs(folder / name, companions[name])]
-    return ["a companion file is missing"] * bool(missing) + [f"{name} is not as it was written" for name in changed]
 
 
 def _remove(path):

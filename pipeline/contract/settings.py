@@ -300,6 +300,16 @@ def declared(cls, steps):
     return info.default, info.description or "", _unit(info)
 
 
+def foreign(cls, steps, values):
+    """Keys of ``values``, written for the section at ``steps`` of section ``cls``, that sections of another ``kind``
+    have there and that of its own does not."""
+    options = _within(cls, steps)
+    own = [option for option in options if "kind" in option.model_fields
+           and option.model_fields["kind"].default == values.get("kind")]
+    others = {key for option in options for key in option.model_fields}
+    return [key for key in values if key in others and key not in own[0].model_fields] if own else []
+
+
 def _of_sections(value):
     """Whether a collection holds sections alone, or such collections."""
     items = value.values() if isinstance(value, dict) else value

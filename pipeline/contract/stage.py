@@ -9,9 +9,12 @@ from functools import partial
 from typing import Union, get_args, get_origin, get_type_hints
 
 from pipeline.contract.context import Context
-from pipeline.contract.errors import ConfigError, ProductError
+from pipeline.contract.errors import ConfigError, ConvergenceError, ProductError
 from pipeline.contract.product import is_product
 from pipeline.contract.settings import Section
+
+#: remedy of errors in time, where a stage has the setting 'step'
+_SHORTER = "take a shorter step"
 
 
 class Variants(dict):
@@ -74,7 +77,8 @@ class Stage:
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` and optional inputs may be left out.
 
-        A ConfigError about something that is a setting of this stage names that setting.
+        A ConfigError about something that is a setting of this stage names that setting, and so does a ConvergenceError
+        that a shorter step may cure.
         """
         absent = dict.fromkeys(name for name in list(self.inputs)[len(args):] if name in self.optional)
         try:
@@ -84,6 +88,11 @@ class Stage:
             if setting is None:
                 raise
             raise ConfigError(setting, error.expected, error.found, error.remedy) from error
+        except ConvergenceError as error:
+            if _SHORTER not in (error.remedy or "") or "step" not in self.settings.model_fields:
+                raise
+            remedy = error.remedy.replace(_SHORTER, f"lower {self.name}.step")
+            raise type(error)(error.where, error.expected, error.found, remedy) from error
 
     def __reduce__(self):
         """Other processes import the stage from its module."""

@@ -13,6 +13,8 @@ from pipeline.physics.fem.holes import drilled
 from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, revolve
 from pipeline.systems.disc_brake_checks import SAME_HEIGHT, clamped_radius, hole_rows, refuse_soft_mount
 from pipeline.systems.mesh_files.bodies import solid
+from pipeline.systems.mesh_files.disc_axis import refuse_other_axis
+from pipeline.systems.mesh_files.materials import read
 from pipeline.systems.solids import Solid
 
 
@@ -23,6 +25,7 @@ def disc(parameters):
     """
     p, where = parameters, "structure.disc.mount_group"
     if p.mesh_file:
+        refuse_other_axis(read(p).mesh, p.mesh_axes)
         return solid(p, "disc", lambda body, table: named_nodes(body, p.mount_group, where) if p.mount_group else
                      clamped_nodes(body.mesh, p, max(max(material.young) for material in table)))
     if p.mount_group:

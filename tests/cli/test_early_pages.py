@@ -1,5 +1,6 @@
 """What a reader learns while a chain runs; what goes wrong there leaves the run as it is."""
 
+import json
 import re
 import threading
 from concurrent.futures import Future
@@ -11,6 +12,8 @@ import stages
 from pipeline.cli import early_pages
 from pipeline.cli.early_pages import EarlyPages
 from pipeline.contract import Context, ConvergenceError
+from stages.report import Settings as Figures
+from tests.commands import ROOT, brakechain
 from tests.views import products_for_views as small
 
 NAMES = "structure", "complex_modes", "convergence", "comparison", "report"
@@ -21,7 +24,8 @@ class Job:
 
     def __init__(self):
         self.stages = [SimpleNamespace(name=name, output=name) for name in NAMES]
-        self.case = SimpleNamespace(stages=self.stages, sections={}, card=lambda version: small.case())
+        self.case = SimpleNamespace(stages=self.stages, sections={"report": Figures(mode_pictures=0, dots_per_inch=50)},
+                                    card=lambda version: small.case())
         self.pages, self.looks = [], 0
 
     def planned(self, *stale):
@@ -36,6 +40,10 @@ class Job:
 
     def announce(self, stage, name, content):
         self.pages.append((stage.name, name, content))
+
+    @property
+    def folder(self):
+        return ROOT
 
 
 @pytest.fixture
@@ -130,6 +138,15 @@ def test_a_stage_that_is_done_after_later_ones_changes_their_page(products, monk
     assert len(said) == 2 and said[1].endswith("Being computed: squeal.")
 
 
+def test_a_stage_that_has_failed_is_not_to_come(products):
+    failed = {}
+    early, said = EarlyPages(Job(), Context(), (told := []).append, failed), told
+    failed["convergence"] = ConvergenceError("a", "b")
+    early.follow(early._stages["complex_modes"])
+    early.close()
+    assert said[0].endswith("Being computed: structure, comparison.")
+
+
 def test_a_page_is_there_before_the_next_stage_is_done(products, monkeypatch):
     """So that none is written after that of the report."""
     job, order, later = Job(), [], threading.Event()
@@ -145,3 +162,30 @@ def test_a_page_is_there_before_the_next_stage_is_done(products, monkeypatch):
 
 def test_the_names_are_those_of_stages():
     assert set(early_pages.ANSWERING) <= set(stages.NAMES)
+
+
+def test_a_stage_that_fails_leaves_the_chapters_of_what_is_done(products, monkeypatch):
+    monkeypatch.setattr(early_pages, "PAGE", "README.md")      # stands for the page that is there
+    job = Job()
+    early, _ = opened(job)
+    for stage in job.stages[:3]:
+        early.follow(stage, computed=False)
+    assert early.end({"comparison": ConvergenceError("a balance", "1e-8", "2e-3", "lower comparison.step")})
+    (_, _, page), (_, name, verdict) = job.pages
+    assert "The stage comparison could not be finished: a balance: expected 1e-8, found 2e-3; lower comparison.step." \
+        in page and name == "verdict.json"
+    assert 'id="complex_modes"' in page and 'id="convergence"' in page
+    assert json.loads(verdict)["warnings"][0].startswith("The stage comparison could not be finished")
+    assert not EarlyPages(Job(), Context(), print).end({"structure": ConvergenceError("a", "b")}), "nothing is done"
+
+
+def test_a_run_that_cannot_be_finished_ends_with_its_error_and_a_report(tmp_path):
+    """A time step that is too long for the simulation: modes are there before it."""
+    done = brakechain("run", ROOT / "configs" / "two_mode_flutter.yaml", "--run", tmp_path / "run", "--workers", 1,
+                      "--set", "transient.step=10 ms", "--set", "complex_modes.friction_steps=3",
+                      "--set", "report.dots_per_inch=50", code=2)
+    assert "error: transient.step (time stepping): expected at most" in done.stderr
+    assert f"report of what was computed: {tmp_path / 'run' / 'report.html'}" in done.stdout
+    page = (tmp_path / "run" / "report.html").read_text()
+    assert "The stage transient could not be finished: transient.step (time stepping): expected at most" in page
+    assert "Not computed: comparison." in page and 'id="complex_modes"' in page and 'id="transient"' not in page

@@ -1,5 +1,8 @@
 """A new case: short, commented, of no paper, checked by the program as it stands."""
 
+import re
+import textwrap
+
 import pytest
 import yaml
 from click.testing import CliRunner
@@ -9,6 +12,7 @@ from pipeline.cli.main import cli
 from pipeline.cli.new_case import ASKED
 from pipeline.contract import case
 from pipeline.contract.settings import leaves
+from tests.commands import ROOT
 
 
 def made(folder, *options, entered="", code=0):
@@ -83,3 +87,20 @@ def test_no_file_is_overwritten(tmp_path):
     made(tmp_path)
     assert "a name that is free" in str(CliRunner().invoke(cli, ["new", str(tmp_path / "my_brake.yaml")]).exception)
     assert "a folder" in str(CliRunner().invoke(cli, ["new", str(tmp_path / "none" / "brake")]).exception)
+
+
+#: indented blocks of the page on brakes of one's own that begin with a section of a case
+BLOCKS = [textwrap.dedent(block) for block in re.findall(r"(?:^    .*\n|^\n(?=    ))+", (
+    ROOT / "docs" / "own_brake.md").read_text(), re.MULTILINE)]
+EXAMPLES = {block.partition(":")[0].strip(): block for block in BLOCKS
+            if block.partition(":")[0].strip() in stages.CHAINS["own_brake"] and "mesh_file" not in block}
+
+
+@pytest.mark.parametrize("section", EXAMPLES)
+def test_the_examples_of_the_page_fit_what_is_written(tmp_path, section):
+    """On the case as on its quick one, with every variant that they ask for."""
+    assert {"sensitivities", "countermeasures", "design_search"} <= set(EXAMPLES)
+    made(tmp_path, "--quick")
+    for base in ("my_brake.yaml", "my_brake_quick.yaml"):
+        (tmp_path / "example.yaml").write_text(f"based_on: {base}\n{EXAMPLES[section]}")
+        assert section in loaded(tmp_path / "example.yaml").document

@@ -1,10 +1,11 @@
 """A case file is checked whole before anything is computed."""
 
 from types import SimpleNamespace
+from typing import Literal
 
 import pytest
 
-from pipeline.contract import ConfigError, InputFile, Section, case, documents, option, settings
+from pipeline.contract import ConfigError, InputFile, OneOf, Section, case, documents, option, settings
 from tests.contract.toy import CHAINS, load
 
 YAML = """
@@ -224,3 +225,51 @@ def test_variants_are_checked_with_the_case(tmp_path, further, message):
     path.write_text(f"chain: varied\ncompared: {{further: {{{further}}}}}\n")
     with pytest.raises(ConfigError, match=message):
         loaded(path)
+
+
+class Ground(Section):
+    """Nothing to state."""
+
+    kind: Literal["ground"] = option("ground", "kind")
+    name: str = option("", "of both kinds")
+
+
+class Body(Section):
+    """Something to state."""
+
+    kind: Literal["body"] = option("body", "kind")
+    name: str = option("", "of both kinds")
+    loss_factor: float = option(0.0, "of this one alone")
+
+
+class Held(Section):
+    """A part of one of two kinds, and several of them."""
+
+    bracket: OneOf(Ground, Body) = option(Ground(), "one")
+
+
+def of_kind(path, *overrides):
+    """A case whose only stage holds a part of two kinds."""
+    stage = SimpleNamespace(name="source", settings=Held, check=lambda sections: None, varied={})
+    return case.load(path, {"toy": ("source",)}, lambda name: stage, overrides)
+
+
+def test_a_section_that_becomes_another_kind_keeps_what_both_have(tmp_path):
+    """By a variant or --set, in whatever order; a value that is asked for beside it and does not fit is refused."""
+    path = tmp_path / "a.yaml"
+    path.write_text("chain: toy\nsource:\n"
+                    "  bracket: {kind: {value: body, origin: stated}, loss_factor: 0.1, name: b}\n")
+    whole = of_kind(path)
+    assert whole.sections["source"].bracket == Body(loss_factor=0.1, name="b")
+    for other in (whole.varied({"source.bracket.kind": "ground"}), of_kind(path, "source.bracket.kind=ground"),
+                  of_kind(path, "source.bracket.name=b", "source.bracket.kind=ground")):
+        assert other.sections["source"].bracket == Ground(name="b")
+    back = whole.varied({"source.bracket.loss_factor": 0.2, "source.bracket.kind": "body"})
+    assert back.sections["source"].bracket == Body(loss_factor=0.2, name="b")
+    with pytest.raises(ConfigError, match="loss_factor: unknown key; known: kind, name"):
+        _ = whole.varied({"source.bracket.loss_factor": 0.2, "source.bracket.kind": "ground"}).sections
+    with pytest.raises(ConfigError, match="bracket"):
+        _ = whole.varied({"source.bracket.kind": "air"}).sections
+    path.write_text("chain: toy\nsource: {bracket: {kind: body, los_factor: 0.1}}\n")
+    with pytest.raises(ConfigError, match="los_factor: unknown key"):
+        of_kind(path, "source.bracket.kind=ground")

@@ -2,7 +2,18 @@
 
 import pytest
 
-from pipeline.contract import ConfigError, Context, ProductError, Products, Quantities, Section, option, stage
+from pipeline.contract import (
+    ConfigError,
+    Context,
+    ConvergenceError,
+    ProductError,
+    Products,
+    Quantities,
+    Section,
+    option,
+    stage,
+)
+from pipeline.contract.errors import UnsettledStepError
 from tests.contract.toy import load
 from tests.contract.toy.products import Source
 from tests.contract.toy.source import Settings
@@ -89,3 +100,27 @@ def test_a_stage_may_take_everything_before_it():
     source.__module__ = "stages.source"
     made = stage(source)
     assert made.reads_all and not made.inputs and not load("doubled").reads_all
+
+
+class Steps(Section):
+    """A time step."""
+
+    step: float = option(1.0, "time step")
+
+
+@pytest.mark.parametrize("settings, remedy, told", [
+    (Steps, "take a shorter step", "lower source.step"), (Settings, "take a shorter step", "take a shorter step"),
+    (Steps, "take a shorter step, or look for energy", "lower source.step, or look for energy"), (Steps, None, None)])
+def test_an_error_that_a_shorter_step_may_cure_names_the_setting(settings, remedy, told):
+    def source(settings: settings, context: Context) -> Source:
+        """Fail.
+
+        Method:
+        None.
+        """
+        raise UnsettledStepError("stepping at 1 s", "forces that settle", "none", remedy)
+
+    source.__module__ = "tests.contract.toy.source"
+    with pytest.raises(ConvergenceError) as raised:
+        stage(source)(settings=settings())
+    assert raised.value.remedy == told and isinstance(raised.value, UnsettledStepError)

@@ -7,6 +7,8 @@ from pipeline.contract import InputFile, Names, Section, option
 from pipeline.systems.mesh_files.bodies import bodies_of_decks
 
 Units = Literal["SI", "mm-t-s", "mm-kg-ms"]
+#: axes of a mesh file that become x, y and z
+FileAxes = tuple[Literal["x", "y", "z", "-x", "-y", "-z"], ...]
 #: bodies of a brake that a deck may hold
 BODIES = ("disc", "pad_outer", "pad_inner", "caliper", "bracket", "piston")
 #: where a case says of each body that it comes from a deck: section, key of the file, key of its sets
@@ -26,6 +28,9 @@ class FromMesh(Section):
     mesh_units: Units = option("SI", "units of the mesh file and of its materials")
     mesh_sets: Names = option((), "sets of elements, or instances, of the file that are this body; none = all of it")
 
+    mesh_axes: FileAxes = option((), "axes of the file that become x (middle of the pads), y and z (axis of the disc),"
+                                     " such as [y, z, x]; none = the same axes")
+
     def decided_by_statement(self):
         """Values that go before those of a mesh file only where the case states them."""
         return tuple(sorted(set(self.of_material) & self.model_fields_set)) if self.mesh_file else ()
@@ -34,12 +39,14 @@ class FromMesh(Section):
 def with_deck(values):
     """The written section structure with its deck of several bodies under each of them.
 
-    ``mesh_file``, ``mesh_units`` and ``mesh_sets`` {body: sets of elements} stand for the same keys of the bodies.
+    ``mesh_file``, ``mesh_units``, ``mesh_axes`` and ``mesh_sets`` {body: sets of elements} stand for the same keys of
+    the bodies.
     Raises ValueError for sets without a file, and for a body that states a file of its own besides.
     """
     if not isinstance(values, dict) or not (values.get("mesh_file") or values.get("mesh_sets")):
         return values
-    file, units, sets = (values.get(key) for key in ("mesh_file", "mesh_units", "mesh_sets"))
+    file, sets = values.get("mesh_file"), values.get("mesh_sets")
+    alike = {key: values[key] for key in ("mesh_units", "mesh_axes") if values.get(key)}
     if not file or not isinstance(sets, dict) or not sets:
         raise ValueError("expected mesh_file with mesh_sets, such as {caliper: CALIPER, pad_outer: [LINING, PLATE]},"
                          f" found {'no mesh_file' if not file else 'no mesh_sets'}")
@@ -48,8 +55,8 @@ def with_deck(values):
         if body not in _KEYS:
             raise ValueError(f"expected bodies {', '.join(BODIES)} in mesh_sets, found {body!r}")
         section, file_key, sets_key = _KEYS[body]
-        filled[section] = _extended(filled.get(section), body, {file_key: file, sets_key: names, **(
-            {"mesh_units": units} if units else {})}, f"{section}.{file_key}")
+        filled[section] = _extended(filled.get(section), body, {file_key: file, sets_key: names, **alike},
+                                    f"{section}.{file_key}")
     return filled
 
 
@@ -61,8 +68,8 @@ def _extended(section, body, more, where):
     if stated and stated != more[key]:
         raise ValueError(f"expected one mesh of the {body}, found {where} besides mesh_file")
     if filled:
-        names = {name: (value,) if name.endswith("sets") and isinstance(value, str) else value
-                 for name, value in more.items()}
+        names = {name: (value,) if name.endswith("sets") and isinstance(value, str) else
+                 tuple(value) if isinstance(value, list) else value for name, value in more.items()}
         return section.model_copy(update=names | {key: Path(more[key])})
     return {**({"kind": "body"} if body in ("bracket", "piston") else {}), **(section or {}), **more}
 

@@ -45,9 +45,10 @@ def _materials(name, model, body, coordinates, whole, damp):
         losses = [f"{name}.loss_factor"]
     else:
         lining = lining_part(model)
-        first = list(map(str, body.material_name)).index(LINING)
+        names = list(map(str, body.material_name))
+        first, behind = names.index(LINING), next((k for k, name in enumerate(names) if name != LINING), 0)
         moduli = [(f"{name}.lining_young", lining, body, first, "lining_stiffness"),
-                  (f"{name}.backplate_young", whole - lining, body, 1 - first, "")]
+                  (f"{name}.backplate_young", whole - lining, body, behind, "")]
         losses = [f"{name}.lining_loss_factor", f"{name}.backplate_loss_factor"]
         if SHIM in body.material_name:       # what is behind the lining is not one material, and stays in one part
             del moduli[1:], losses[1:]

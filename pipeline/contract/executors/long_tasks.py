@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from pipeline.contract.context import CaseSummary, Context
 from pipeline.contract.executors.local import killed
+from pipeline.contract.executors.unfinished import Unfinished
 
 
 @dataclass(frozen=True)
@@ -32,8 +33,9 @@ class Made:
 class LongTasks:
     """Those of one ChainRun that are under way; ``report(state, seconds)`` is called when one is done."""
 
-    def __init__(self, run: object, context: Context, report: Callable):
+    def __init__(self, run: object, context: Context, report: Callable, unfinished: Unfinished):
         self._run, self._context, self._report, self._begun = run, context, report, []
+        self._unfinished = unfinished
 
     def begin(self, state: object) -> bool:
         """Begin with the stage of a ``state`` if it must run, in a context that spares a process; whether it does."""
@@ -47,13 +49,15 @@ class LongTasks:
     def gather(self, stage: object = None) -> int:
         """Write the products of those that are done or that ``stage`` may read, of all for None; their number.
 
-        Raises what such a stage raised, and BrakechainError where its process was killed.
+        Raises what such a stage raised unless the run goes on without it, and BrakechainError where its process was
+        killed.
         """
         chosen = [each for each in self._begun if stage is None or each[2].done() or self._needed(stage, each[0].stage)]
         for each in chosen:
             self._begun.remove(each)
-            self._write(*each)
-        return len(chosen)
+            with self._unfinished.noted(each[0].stage):
+                self._write(*each)
+        return len([each for each in chosen if each[0].stage.name not in self._unfinished.errors])
 
     def _needed(self, stage, begun):
         read = {product.name for product in self._run.filled(stage).values() if product}

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from pipeline.contract import store
 from pipeline.contract.errors import ConfigError, ProductError
-from pipeline.contract.integrity import checksum, examined
-from pipeline.contract.received import names
+from pipeline.contract.integrity import checksum, examined, seen
+from pipeline.contract.received import files, names
 
 
 @dataclass(frozen=True)
@@ -70,3 +70,10 @@ def recorded(provenance):
     if not isinstance(companions, dict) or not all(names.is_name(name) for name in companions):
         raise ValueError("a list of companions that is none")
     return companions
+
+
+def of_companions(folder, companions):
+    """What is wrong with ``companions`` {name: digest} of a product in a folder; one phrase each."""
+    missing = [name for name in companions if not files.is_plain(folder / name)]
+    changed = [name for name in companions if name not in missing and seen.differs(folder / name, companions[name])]
+    return ["a companion file is missing"] * bool(missing) + [f"{name} is not as it was written" for name in changed]

@@ -1,4 +1,5 @@
-"""Archives of Ansys (.cdb, as CDWRITE writes them): nodes, SOLID186 and SOLID187, components, materials."""
+"""Archives of Ansys (.cdb, as CDWRITE writes them, and inputs of Workbench): nodes, SOLID186 and SOLID187, components,
+materials."""
 
 import re
 
@@ -11,19 +12,23 @@ from pipeline.decks.meshes.deck import Draft, span, whole
 
 #: element types by their number: nodes of those of second order, and those of first order
 _SECOND, _FIRST = {186: 20, 95: 20, 187: 10, 92: 10}, {185: "hexahedron", 45: "hexahedron", 285: "tetra"}
+#: nodes in the lines of each type
+_NODES = _SECOND | {185: 8, 45: 8, 285: 4}
 #: rows of a collapsed hexahedron's nodes in the order of meshio
 _COLLAPSED = {"hexahedron20": range(20), "wedge15": (0, 1, 2, 4, 5, 6, 8, 9, 11, 12, 13, 15, 16, 17, 18),
               "tetra10": (0, 1, 2, 4, 8, 9, 11, 16, 17, 18)}
 #: commands that make nodes and elements, or take them from elsewhere
 _GENERATORS = {"NGEN", "EGEN", "VMESH", "VSWEEP", "E", "EN", "EMORE", "/INPUT", "*DO", "*USE", "CDREAD"}
 #: commands that say nothing of the body
-_HOLLOW = {"/PREP7", "/COM", "/NOPR", "/TITLE", "/GO", "/GOPR", "/BATCH", "FINISH", "NUMOFF", "MPTEMP", "/EOF"}
+_HOLLOW = {"/PREP7", "/COM", "/NOPR", "/TITLE", "/GO", "/GOPR", "/BATCH", "FINISH", "FINI", "NUMOFF", "MPTEMP", "/EOF"}
+#: commands that say what the elements after them have: their number, 1 before any
+_CURRENT = ("TYPE", "MAT", "ESYS")
 
 
 def read(path):
     """Deck of the file at ``path``; raises ConfigError for what cannot be read as a mesh, with file and line."""
     draft = Draft(f"mesh file {path}")
-    held = {"types": {}, "material": {}, "systems": {}, "values": {}}
+    held = {"types": {}, "elements": {}, "current": {"TYPE": 1, "MAT": 1, "ESYS": 0}, **ansys_materials.empty()}
     for command in commands(path):
         if command.name in _GENERATORS or (command.name == "N" and command.get(0)[:1].isdigit()):
             raise ConfigError(command.where, "a mesh that is written out in blocks", command.name,
@@ -62,28 +67,45 @@ def _nodes(command, draft, held):
                           "write the file again")
 
 
+def _attribute(command, draft, held):
+    held["current"][command.name] = whole(command.get(0) or "1", command.where)
+
+
 def _elements(command, draft, held):
-    if command.get(1).upper() != "SOLID":
+    form = command.get(1).upper()
+    if form not in ("SOLID", "COMPACT"):
         draft.unread["EBLOCK of surface or line elements"] += 1
         return
-    rows, count = command.table(), 0
-    for where, (material, kind, _, _, system, _, _, _, given, _, label, *nodes), _ in _complete(rows):
-        while len(nodes) < given:
-            nodes += next(rows, (0, (), 0))[1] or _refuse_short(where, label, given, nodes)
+    count = 0
+    for where, material, kind, system, label, nodes in (_compact if form == "COMPACT" else _complete)(command, held):
         count += 1
         _element(where, held["types"].get(kind), label, nodes, draft)
-        held["material"].setdefault(material, []).append(label)
-        held["systems"][material] = max(held["systems"].get(material, 0), system)
+        held["elements"].setdefault((material, system), []).append(label)
     if command.get(3).isdigit() and int(command.get(3)) != count:
         raise ConfigError(command.where, f"{command.get(3)} elements, as EBLOCK says", f"{count}",
                           "write the file again")
 
 
-def _complete(rows):
-    for where, numbers, rest in rows:
-        if len(numbers) < 12:
-            raise ConfigError(where, "11 numbers and the nodes of an element", f"{len(numbers)} numbers")
-        yield where, numbers, rest
+def _complete(command, held):
+    """Yield (where, material, type, coordinate system, number, nodes) of lines with 11 numbers before the nodes."""
+    rows = command.table()
+    for where, values, _ in rows:
+        if len(values) < 12:
+            raise ConfigError(where, "11 numbers and the nodes of an element", f"{len(values)} numbers")
+        material, kind, _, _, system, _, _, _, given, _, label, *nodes = values
+        while len(nodes) < given:
+            nodes += next(rows, (0, (), 0))[1] or _refuse_short(where, label, given, nodes)
+        yield where, material, kind, system, label, nodes
+
+
+def _compact(command, held):
+    """The same of lines with the number of an element and its nodes: all else is that of TYPE, MAT and ESYS before."""
+    current, rows = held["current"], command.table()
+    wanted = _NODES.get(held["types"].get(current["TYPE"]), 0)
+    for where, (label, *nodes), _ in rows:
+        while len(nodes) < wanted:
+            nodes += next(rows, (0, (), 0))[1] or _refuse_short(where, label, wanted, nodes)
+        yield where, current["MAT"], current["TYPE"], current["ESYS"], label, nodes
 
 
 def _refuse_short(where, label, count, nodes):
@@ -135,4 +157,4 @@ def _component(command, draft, held):
 
 
 _HANDLERS = {"ET": _type, "ETBLOCK": _types, "NBLOCK": _nodes, "EBLOCK": _elements, "CMBLOCK": _component,
-             "MP": ansys_materials.given, "MPDATA": ansys_materials.given}
+             **dict.fromkeys(_CURRENT, _attribute), **ansys_materials.HANDLERS}

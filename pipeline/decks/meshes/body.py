@@ -10,6 +10,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.includes import following, read_lines
 from pipeline.decks.meshes import abaqus, ansys, groups, nastran
+from pipeline.decks.meshes.axes import file_axes
 from pipeline.physics.fem.mesh import Mesh
 from pipeline.physics.fem.mesh_file import LENGTH, check, read_mesh, unchecked
 
@@ -19,6 +20,8 @@ READERS = {".inp": abaqus.read, ".cdb": ansys.read, **dict.fromkeys((".bdf", ".n
 _UNITS = {"SI": (1.0, 1.0), "mm-t-s": (1e6, 1e12), "mm-kg-ms": (1e9, 1e9)}
 #: densities [kg/m^3] and Young's moduli [Pa] of parts of a brake, from foams and rubbers to tungsten and ceramics
 _DENSITIES, _MODULI = (100.0, 25e3), (1e5, 2e12)
+#: digits of unit vectors to which elements have the same axes
+_DIGITS = 9
 
 
 @dataclass(frozen=True)
@@ -43,17 +46,40 @@ class MeshedBody:
     known: tuple = ()       # names of all materials of the deck
 
 
-def read_body(path, units="SI", sets=()):
+def read_body(path, units="SI", sets=(), axes=()):
     """MeshedBody of a file, or of the elements in ``sets`` of it, names of sets of elements.
 
     A file is a deck of Abaqus or CalculiX (.inp), Nastran (.bdf) or Ansys (.cdb), a .dat of one of them, or what meshio
-    reads, of which the whole is taken. ``units``: one of the systems of ``mesh_file.LENGTH``. Raises ConfigError for
-    what cannot be read, what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
+    reads, of which the whole is taken. ``units``: one of the systems of ``mesh_file.LENGTH``. ``axes``: those of the
+    file that become x, y and z, as ``axes.file_axes`` names them; none = as they are. Raises ConfigError for what
+    cannot be read, what no body can be made of, and for sizes, densities and moduli that no part of a brake has.
     """
     path = Path(path)
     files = (path, *following(path))
     state = tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files)
-    return _read(path, units, tuple(each.upper() for each in sets), state)
+    return _turned(path, units, tuple(each.upper() for each in sets), tuple(axes), state)
+
+
+@lru_cache(maxsize=8)
+def _turned(path, units, sets, axes, state):
+    """The body with its axes as those of the program."""
+    body = _read(path, units, sets, state)
+    if not axes:
+        return body
+    rows = file_axes(axes)
+    materials = tuple(material if material.young is None or material.isotropic else replace(
+        material, axes=(np.eye(3) if material.axes is None else material.axes) @ rows.T) for material in body.materials)
+    springs = tuple(_turned_spring(path, spring, rows) for spring in body.springs)
+    return replace(body, mesh=replace(body.mesh, node=body.mesh.node @ rows.T), materials=materials, springs=springs)
+
+
+def _turned_spring(path, spring, rows):
+    """The Spring along the axes ``rows`` (3, 3) of the program; ConfigError for one between axes of unlike signs."""
+    place = [int(np.argmax(abs(rows[:, freedom]))) for freedom in spring.freedoms]
+    if len({rows[new, old] for new, old in zip(place, spring.freedoms, strict=True)}) > 1:
+        raise ConfigError(f"mesh file {path}: spring {spring.name}", "degrees of freedom whose axes mesh_axes turns"
+                          " alike", f"{[freedom + 1 for freedom in spring.freedoms]}", "turn the mesh in the deck")
+    return replace(spring, freedoms=tuple(place))
 
 
 @lru_cache(maxsize=8)
@@ -142,15 +168,26 @@ def _materials(deck, labels):
     """([Material with its axes], (e,) row of each element or -1); a later section overrules an earlier one."""
     order, row, members, index = np.argsort(labels), np.full(len(labels), -1), [], {}
     for numbers, name, axes in deck.sections:
-        key = name, None if axes is None else axes.tobytes()
-        if key not in index:
-            index[key] = len(members)
-            members.append(replace(deck.materials[name], axes=axes))
         found = order[np.minimum(np.searchsorted(labels, numbers, sorter=order), len(labels) - 1)]
-        row[found[labels[found] == numbers]] = index[key]
+        here = labels[found] == numbers
+        each, which = _different(axes, here)
+        for k, one in enumerate(each):
+            key = name, None if one is None else one.tobytes()
+            if key not in index:
+                index[key] = len(members)
+                members.append(replace(deck.materials[name], axes=one))
+            row[found[here][which == k]] = index[key]
     used, compact = np.unique(row[row >= 0], return_inverse=True)
     row[row >= 0] = compact.reshape(-1)
     return [members[k] for k in used], row
+
+
+def _different(axes, here):
+    """([(3, 3) or None], (k,) row of them of each element) of the ``axes`` of a section in those ``here`` (n,) bool."""
+    if axes is None or axes.ndim == 2:
+        return [axes], np.zeros(np.count_nonzero(here), int)
+    rows, which = np.unique(axes[here].round(_DIGITS).reshape(-1, 9), axis=0, return_inverse=True)
+    return list(rows.reshape(-1, 3, 3)), which.ravel()
 
 
 def _in_si(where, material, units):

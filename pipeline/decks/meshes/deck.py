@@ -35,8 +35,9 @@ class Deck:
 
     ``blocks`` [(kind, numbers (c,), rows of nodes (c, v) in the order of meshio)]; ``node_sets`` and ``element_sets``
     {name: numbers}; ``surfaces`` {name: ((numbers of elements, face as written), ...)}; ``materials`` {name: Material};
-    ``sections`` ((numbers of elements, name of the material, axes (3, 3) or None), ...); ``notes``: sentences on what
-    was not read; ``ties`` ((name, first surface, second surface), ...); ``springs`` (Spring, ...).
+    ``sections`` ((numbers of elements, name of the material, axes (3, 3) of all, (k, 3, 3) of each or None), ...);
+    ``notes``: sentences on what was not read; ``ties`` ((name, first surface, second surface), ...); ``springs``
+    (Spring, ...).
     """
 
     label: np.ndarray

@@ -1,25 +1,24 @@
-"""Decks of Nastran (.bdf): grid points, solid elements, PSOLID and MAT1."""
+"""Decks of Nastran (.bdf): grid points, solid elements, PSOLID, materials and the axes that they lie along."""
 
 import re
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes import nastran_materials
 from pipeline.decks.meshes.deck import BY_COUNT, Draft, listed, whole
-from pipeline.decks.meshes.material import Material
 from pipeline.decks.meshes.nastran_cards import cards, number
 
 #: card -> (corners, all nodes)
 _SOLIDS = {"CHEXA": (8, 20), "CTETRA": (4, 10), "CPENTA": (6, 15), "CPYRAM": (5, 13), "CPYRA": (5, 13)}
 #: rows of Nastran's nodes, whose edges between both faces stand before those of the upper one, in the order of meshio
 _ORDER = {20: (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), 15: (*range(9), 12, 13, 14, 9, 10, 11)}
-#: materials and properties of solids that are not read; a PSOLID may name one
-_OTHERS = ("MAT3", "MAT9", "MAT10", "MAT11")
 
 
 def read(path):
     """Deck of the file at ``path``; raises ConfigError for what cannot be read as a mesh, with file and line."""
-    draft, properties, held = Draft(f"mesh file {path}"), {}, {"psolid": {}, "others": set(), "scale": 1.0}
+    draft, properties, held = Draft(f"mesh file {path}"), {}, {
+        "psolid": {}, "materials": {}, "systems": {}, "scale": 1.0}
     head, members = cards(path)
     for card in members:
         if card.name in _SOLIDS:
@@ -28,8 +27,6 @@ def read(path):
             _HANDLERS[card.name](card, draft, held)
         else:
             draft.unread[card.name] += 1
-            if card.name in _OTHERS:
-                held["others"].add(whole(card.get(2), card.where))
     if head:
         draft.unread[f"executive and case control: {', '.join(_words(head))}"] += 1
     _sections(draft, properties, held)
@@ -73,31 +70,13 @@ def _solid(card, draft, properties):
     properties.setdefault(whole(card.get(3) or card.get(2), card.where), []).append(label)
 
 
-def _mat1(card, draft, held):
-    name = f"MAT1 {whole(card.get(2), card.where)}"
-    if name in draft.materials:
-        raise ConfigError(card.where, "each material once", f"{name} again", "leave one of them out")
-    young, shear, poisson, density, damping = (number(text, card.where) if text else None
-                                               for text in map(card.get, (3, 4, 5, 6, 9)))
-    material = Material(name, density=density)
-    if young is None and None not in (shear, poisson):
-        young = 2 * (1 + poisson) * shear
-    if poisson is None and young is not None and shear:
-        poisson = young / (2 * shear) - 1
-    if None not in (young, poisson):
-        material = material.with_isotropic(young, poisson)
-        if shear is not None and abs(shear / material.shear[0] - 1) > 0.01:
-            draft.notes.append(f"{name}: G {shear:g} is not E / (2 (1 + nu)); E and nu are taken")
-    if damping:
-        draft.notes.append(f"{name}: GE {damping:g} (structural damping) is not taken; state a loss factor")
-    draft.materials[name] = material
-
-
 def _psolid(card, draft, held):
+    """PSOLID, or PLSOLID, whose law is not linear."""
     number_of, material = whole(card.get(2), card.where), whole(card.get(3), card.where)
     if number_of in held["psolid"]:
-        raise ConfigError(card.where, "each PSOLID once", f"PSOLID {number_of} again", "leave one of them out")
-    held["psolid"][number_of] = material, card.where
+        raise ConfigError(card.where, f"each {card.name} once", f"{card.name} {number_of} again",
+                          "leave one of them out")
+    held["psolid"][number_of] = material, card.where, card.get(4) if card.name == "PSOLID" else ""
 
 
 def _param(card, draft, held):
@@ -119,14 +98,14 @@ def _sections(draft, properties, held):
         draft.element_sets[f"PROPERTY {number_of}"] = labels
         if number_of not in held["psolid"]:
             continue
-        material, where = held["psolid"][number_of]
-        if f"MAT1 {material}" in draft.materials:
-            draft.sections.append((np.array(labels, np.int64), f"MAT1 {material}", None))
-        elif material in held["others"]:
-            draft.notes.append(f"PSOLID {number_of} names material {material}, which is none of MAT1 and is not read")
-        else:
+        material, where, system = held["psolid"][number_of]
+        if material not in held["materials"]:
             raise ConfigError(where, "a material that the deck defines", f"{material}",
-                              "write MAT1, or include the file that has it")
+                              "write MAT1, MAT9 or MAT11, or include the file that has it")
+        name, numbers = held["materials"][material], np.array(labels, np.int64)
+        axes = nastran_materials.axes(draft, numbers, draft.materials[name], system, held["systems"], where)
+        draft.sections.append((numbers, name, axes))
 
 
-_HANDLERS = {"GRID": _grid, "GRDSET": _grdset, "MAT1": _mat1, "PSOLID": _psolid, "PARAM": _param}
+_HANDLERS = {"GRID": _grid, "GRDSET": _grdset, "PSOLID": _psolid, "PLSOLID": _psolid, "PARAM": _param,
+             **nastran_materials.HANDLERS}

@@ -87,7 +87,7 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
                                  (first * np.abs(free_closure)).max())
     if not imbalance <= BALANCED:
         raise ConvergenceError("preload", f"contact forces that balance within {BALANCED:g}", f"{imbalance:.1e}",
-                               "raise the load or soften the contact law")
+                               "raise structure.pressures, or soften the contact law")
     return Preload(*force_at_rest(closure, area, law_closure, law_pressure), closure)
 
 

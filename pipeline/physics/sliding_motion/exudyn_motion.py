@@ -60,7 +60,7 @@ def _solve(rate, start, count, step, watch):
     finally:
         exudyn.config.printToConsole = talkative
     if done is False or not watch.finite:
-        raise ConvergenceError("sliding motion: exudyn", "a finite motion", "none", "take a shorter step")
+        raise ConvergenceError("sliding motion: exudyn", "a finite motion", "none", "lower limit_cycle.step")
 
 
 class _Watch:

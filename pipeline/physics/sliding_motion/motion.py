@@ -115,8 +115,8 @@ class SlidingMotion:
                     each[:] = value
                 if parts > _FINEST:
                     raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
-                                           "none after the last iteration", "take a shorter step or smaller patches, or"
-                                           " raise the stick speed")
+                                           "none after the last iteration", "lower limit_cycle.patch"
+                                           " or limit_cycle.step, or raise limit_cycle.stick_speed")
                 code, _, more = advance(self.patches, self._kernel(step / parts), energy, *motion, 0, parts, parts + 1,
                                         none, spent)
                 sweeps += more

@@ -67,8 +67,8 @@ class SlidingModes:
             raise ConvergenceError(
                 "limit_cycle: sliding motion", f"a mode at {near[lost].imag / (2 * np.pi):.6g} Hz, which complex_modes"
                 " has", f"the nearest {100 * distance[lost]:.2g} % off", "lower limit_cycle.smallest_correction to a"
-                " tenth, or leave the stage out: damping that is no damper's moves this root by more than"
-                f" {100 * _MATCH:g} %")
+                " tenth; where that does not help, damping that is no damper's moves this root by more than"
+                f" {100 * _MATCH:g} %, and the mode has no limit cycle here")
         root = self.root.copy()
         root[mode] = roots
         return replace(self, root=root)

@@ -82,7 +82,7 @@ class SlidingBasis:
             return reached.unknown - reached.step
         raise ConvergenceError("steady sliding of a draw", f"contact forces that balance within {_BALANCED:g}",
                                f"changes of {reached.error:.3g} of the largest",
-                               "narrow the scatter of friction or stiffness")
+                               "narrow the scatter of friction or stiffness in probability.sources")
 
     def residual_of(self, factors, speed):
         """(n,) N: imbalance of the sliding state of a draw in the whole model."""
@@ -170,7 +170,7 @@ def sliding_basis(family, speeds, training=(NOMINAL,)):
             return replace(basis, residual=float(change.max()))
         basis = _extended(family, springs, basis.shape, answers[:, change > _SERVED], basis.shape @ basis.start)
     raise ConvergenceError("steady sliding of draws", f"changes of contact forces below {_SERVED:g} of the largest",
-                           f"{change.max():.2g} after {_ROUNDS} rounds", "narrow the scatter")
+                           f"{change.max():.2g} after {_ROUNDS} rounds", "narrow the scatter in probability.sources")
 
 
 def _tangent(family, contact, speed):

@@ -71,6 +71,7 @@ def notes(parameters):
         for note in held.notes:
             of_files.setdefault(note, []).append(body)
         said += [f"{body}: {note}" for note in found]
+        said += [f"{body}: turned: {', '.join(section.mesh_axes)} of its file are x, y, z"] * bool(section.mesh_axes)
         said += [f"{body}: tie {name} holds unlike meshes together" for name, *_ in held.ties]
         places = [name for name, rows in (held.node_sets | held.surfaces).items() if len(rows) and name in PLACES]
         said += [f"{body}: joints act at its groups {', '.join(sorted(places))}"] * bool(places)
@@ -136,14 +137,14 @@ def _pad_body(pad, side):
     """(MeshedBody of a pad, whether it is that of the other side)."""
     if side > 0 or not (pad.inner_mesh_file or pad.inner_mesh_sets):
         return read(pad), side < 0
-    return read_body(pad.inner_mesh_file or pad.mesh_file, pad.mesh_units, pad.inner_mesh_sets), False
+    return read_body(pad.inner_mesh_file or pad.mesh_file, pad.mesh_units, pad.inner_mesh_sets, pad.mesh_axes), False
 
 
 def _pad_materials(body, pad, side):
     """((e,) rows, [Material], [whether of the lining], sentences) of a pad."""
     where, of_lining = "structure.pad", _lining(body, pad)
     plate = SimpleNamespace(young=pad.backplate_young, poisson=pad.backplate_poisson, density=pad.backplate_density,
-                            decided_by_statement=lambda: tuple(
+                            prefix="backplate_", decided_by_statement=lambda: tuple(
                                 key.removeprefix("backplate_") for key in pad.decided_by_statement()))
     row, table, lined, said = np.empty(len(of_lining), int), [], [], []
     for chosen, section, name, complete in ((of_lining, pad, "lining", lining), (~of_lining, plate, "steel", None)):
@@ -178,7 +179,8 @@ def _contact(mesh, lined, side):
     faces, height = faces[normal[:, 2] * side < -_FACING], side * middle[normal[:, 2] * side < -_FACING, 2]
     if not len(faces):
         raise ConfigError("structure.pad.mesh_file", f"faces of the lining towards {'-' if side > 0 else '+'}z, where"
-                          " the disc lies", "none", "place the pads beside the ring: axis z, pads centred on x")
+                          " the disc lies", "none", "place the pads beside the ring: axis z, pads centred on x; or name"
+                          " the axes of the file that are x, y, z in structure.pad.mesh_axes")
     thickness = np.ptp(mesh.node[mesh.element[lined], 2])
     return faces[height < height.min() + _RECESS * thickness]
 

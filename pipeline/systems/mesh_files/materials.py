@@ -26,7 +26,7 @@ def from_file(parameters):
 
 def read(parameters):
     """MeshedBody of the file, and the sets of it, that a section names."""
-    return read_body(parameters.mesh_file, parameters.mesh_units, parameters.mesh_sets)
+    return read_body(parameters.mesh_file, parameters.mesh_units, parameters.mesh_sets, parameters.mesh_axes)
 
 
 def materials(body, parameters, name, where, complete=None):
@@ -51,12 +51,14 @@ def materials(body, parameters, name, where, complete=None):
     said = [note for _, each in completed for note in each] if body.materials else []
     if rest and body.materials:
         said.append(f"{(body.element_material < 0).sum()} elements have no material in the file: {name} of {where}")
-    return [material for material, _ in completed], row, tuple(said)
+    return [material for material, _ in completed], row, tuple(dict.fromkeys(said))
 
 
 def _completed(material, parameters, stated, where):
     """(the material with all values, sentences)."""
     elastic = stated & {"young", "poisson"}
+    prefix = getattr(parameters, "prefix", "")
+    _refuse_unread(material, elastic == {"young", "poisson"}, where, f"{prefix}young and {prefix}poisson")
     given = {"density": material.density}
     if material.young is None or material.isotropic:
         given |= {key: None if material.young is None else getattr(material, key)[0] for key in ("young", "poisson")}
@@ -90,13 +92,24 @@ def lining(material, pad, stated, where):
     density = pad.lining_density if dense else material.density
     said = [f"{material.name}: density {density:.5g} kg/m^3, {_source(dense, 'lining_density' in stated, where)}"]
     elastic = stated - {"lining_density"}
+    _refuse_unread(material, bool(elastic), where, "lining_young_normal and the other elastic constants")
     if not elastic and material.young is not None:
         return replace(material, density=density), (f"{material.name}: elastic constants of the file", *said)
     young = tuple(getattr(pad, f"lining_young_{axis}") for axis in ("radial", "tangential", "normal"))
     shear = (pad.lining_shear_normal, pad.lining_shear_normal, pad.lining_shear_in_plane)
     said.insert(0, f"{material.name}: elastic constants {_source(True, bool(elastic), where)}, along x, y, z")
-    return replace(material, young=young, poisson=(pad.lining_poisson,) * 3, shear=shear, axes=None,
-                   density=density), tuple(said)
+    made = replace(material, axes=None, density=density)
+    return made.with_constants(young, (pad.lining_poisson,) * 3, shear), tuple(said)
+
+
+def _refuse_unread(material, stated, where, keys):
+    """ConfigError for a material whose law in the deck is not read, unless the case has ``stated`` what takes its
+    place."""
+    unread = material.unread
+    if unread is not None and not stated:
+        raise ConfigError(f"{unread.where}, material {material.name}", "elastic constants of a solid that are read",
+                          unread.found, f"{unread.remedy}, or state {where}: {keys} in the case, which go before the"
+                          " deck")
 
 
 def _source(of_case, stated, where):

@@ -65,12 +65,29 @@ def statement(convergence):
         stay = f"no mode is unstable {on} either"
     else:
         stay = (f"the same modes are unstable {on}, their frequencies within"
-                f" {percent(convergence.frequency_change, 2)} and growth rates within"
-                f" {percent(convergence.growth_share, 2)} ({quantity(convergence.growth_change, '1/s', 2)})")
+                f" {percent(convergence.frequency_change, 2)} and growth rates within {_growth(convergence)}")
     if convergence.converged.item():
         where = f"{quantity(convergence.pressure, 'Pa', 3)} and {quantity(convergence.speed, 'rad/s')}"
         return f"Converged at {where}, where it was tried: {stay}.{_error(convergence)}"
-    return f"{stay[0].upper()}{stay[1:]}.{_unjudged(convergence)}"
+    return (f"Not shown to be converged: {unrefined(convergence)}. {stay[0].upper()}{stay[1:]}."
+            f"{_unjudged(convergence)}")
+
+
+def _growth(convergence):
+    """Largest change of a growth rate; as a share too, unless only its size made it pass."""
+    change = quantity(convergence.growth_change, "1/s", 2)
+    share = convergence.growth_share
+    return f"{percent(share, 2)} ({change})" if share <= convergence.growth_tolerance else change
+
+
+def unrefined(convergence):
+    """In short, what the comparison leaves unjudged: all meshes, some of them, or so many."""
+    names = [WORDS[str(name)] for name in convergence.left_out]
+    if not any(str(name) != "bases" for name in convergence.refinement):
+        return "no mesh was refined"
+    if len(names) > 2:
+        return f"{len(names)} of {len(names) + len(convergence.refinement)} parts were not refined"
+    return f"{_listed(names)} {'was' if len(names) == 1 else 'were'} not refined"
 
 
 def _error(convergence):

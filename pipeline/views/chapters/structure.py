@@ -84,8 +84,8 @@ def _load_in_words(structure, load):
 def _bodies(structure):
     bodies = [(_words(name), structure.body(str(name))) for name in structure.body_name]
     rows = tuple((name, str(len(body.node)), str(len(body.element)), str(body.kind.item()),
-                  ", ".join(f"{m} ({quantity(d, 'kg/m^3')})" for m, d in zip(
-                      body.material_name, body.density, strict=True)),
+                  ", ".join(dict.fromkeys(f"{m} ({quantity(d, 'kg/m^3')})" for m, d in zip(
+                      body.material_name, body.density, strict=True))),
                   str(len(body.frequency)), quantity(body.frequency.max(initial=0.0), "Hz"),
                   percent(body.damping_ratio)) for name, body in bodies)
     return Table(("body", "nodes", "elements", "element", "materials", "modes", "up to", "damping ratio"), rows,

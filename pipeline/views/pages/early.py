@@ -3,8 +3,9 @@
 from pipeline.views.chapters.chapter import Look
 from pipeline.views.figures.number_format import number, quantity
 from pipeline.views.pages import case_settings
-from pipeline.views.pages.report import early_page
+from pipeline.views.pages.report import early_page, unfinished
 from pipeline.views.pages.summary import first_look, verdict
+from pipeline.views.pages.verdict_file import verdict_text
 
 
 def first_page(modes, case, ahead):
@@ -29,5 +30,22 @@ def later_page(products, case, ahead):
     return f"{told.headline}. {_to_come(ahead)}", early_page(told, products, case, note, Look())
 
 
+def unfinished_page(products, case, errors, left, figures):
+    """(HTML, text of verdict.json) of what ``products`` say where stages failed: ``errors`` {stage: sentence}.
+
+    ``left``: names of the stages that were not begun; ``figures``: settings of the stage report.
+    """
+    parts = [f"The stage {_words(name)} could not be finished: {sentence}." for name, sentence in errors.items()]
+    parts += [f"Not computed: {', '.join(map(_words, left))}."] * bool(left)
+    note = " ".join(["This report is not complete.", *(part.replace("..", ".") for part in parts)])
+    told = verdict(products, case_settings.tuned(case))
+    look = Look(figures.dots_per_inch, figures.mode_pictures)
+    return unfinished(told, products, case, look, note), verdict_text(told, products, parts)
+
+
+def _words(name):
+    return name.replace("_", " ")
+
+
 def _to_come(ahead):
-    return f"Being computed: {', '.join(name.replace('_', ' ') for name in ahead)}."
+    return f"Being computed: {', '.join(map(_words, ahead))}."

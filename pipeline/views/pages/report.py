@@ -126,10 +126,19 @@ def early_page(told, products, case, note, look=None):
     return _rendered((), products, case, told, _key_figures(products, look) if look else (), note)
 
 
-def _rendered(chapters, products, case, told, key_figures, note=""):
+def unfinished(told, products, case, look, note):
+    """HTML text of a report whose chain did not end: a Verdict with a ``note`` on what failed, and the chapters of the
+    ``products`` that are there."""
+    chapters = [chapter for chapter in (write() for write in plan(products, look).values()) if chapter is not None]
+    return _rendered(chapters, products, case, told, _key_figures(products, look), note, list(products))
+
+
+def _rendered(chapters, products, case, told, key_figures, note="", done=None):
+    """``done``: names of the stages whose methods are printed; None: all, none on a page with a ``note``."""
     facts = products.get("comparison")
     silent = set(CHAPTERS) & set(products) - {chapter.anchor for chapter in chapters}
-    methods = tuple((stage, text) for stage, text in case_view.methods(case) if stage not in silent and not note)
+    methods = tuple((stage, text) for stage, text in case_view.methods(case) if stage not in silent and (
+        not note if done is None else stage in done))
     return template().render(
         case=case, chapters=chapters, verdict=told, note=note, system=system(products),
         key_figures=key_figures, key_tables=() if facts is None else comparison.tables(facts),

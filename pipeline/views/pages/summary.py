@@ -148,7 +148,9 @@ def _doubt(refined):
         return " (convergence: being computed)"
     if refined.converged.item():
         return ""
-    return " (converged as far as refined)" if convergence.unjudged(refined) else " (not converged)"
+    if convergence.unjudged(refined):
+        return f" (not shown to be converged: {convergence.unrefined(refined)})"
+    return " (not converged)"
 
 
 def _onset(modes, doubt, cycle):

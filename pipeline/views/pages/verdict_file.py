@@ -16,8 +16,11 @@ SCHEMA = "brakechain-verdict/2"
 TWO_PI = 2.0 * np.pi
 
 
-def verdict_text(verdict, products):
-    """JSON text of a Verdict and the ``products`` (name -> product or None) behind it; SI units, null where unknown."""
+def verdict_text(verdict, products, failed=()):
+    """JSON text of a Verdict and the ``products`` (name -> product or None) behind it; SI units, null where unknown.
+
+    ``failed``: sentences on stages that could not be finished, which stand before all other warnings.
+    """
     modes, refined, given = (products.get(name) for name in ("complex_modes", "convergence", "matrix_modes"))
     document = {"schema": SCHEMA, "headline": verdict.headline,
                 "squeal_can_start": _can_start(modes) if given is None else len(given.roots.residual) > 0,
@@ -29,7 +32,7 @@ def verdict_text(verdict, products):
                 "countermeasures": _countermeasures(products.get("countermeasures")),
                 "heard_lines": _heard(products.get("line_evidence")),
                 "noise_matrix": _matrix(products.get("noise_matrix")),
-                "warnings": _warnings(modes, refined) + list(filter(None, (
+                "warnings": [*failed] + _warnings(modes, refined) + list(filter(None, (
                     outside_computed(products), open_balance(products.get("multibody")))))}
     return json.dumps(document, indent=1) + "\n"
 

@@ -32,6 +32,14 @@ def test_filled_sections_are_extended(file):
     assert settings.caliper.young == 1e9 and settings.caliper.mesh_sets == ("C",)
 
 
+def test_axes_of_the_deck_are_those_of_every_body(file):
+    settings = Settings(mesh_file=file, mesh_axes=["y", "z", "x"], mesh_sets={"disc": "D", "caliper": "C"},
+                        caliper=Caliper(young="1 GPa"))
+    assert settings.disc.mesh_axes == settings.caliper.mesh_axes == ("y", "z", "x") and settings.pad.mesh_axes == ()
+    with pytest.raises(ValueError, match="mesh_axes"):
+        Settings(mesh_file=file, mesh_axes=["r", "t", "z"], mesh_sets={"disc": "D"})
+
+
 def test_without_a_deck_nothing_changes():
     assert with_deck({"disc": {}}) == {"disc": {}} and with_deck(None) is None
     assert Settings().disc.mesh_file is None

@@ -14,7 +14,7 @@ _TYPE = {"hexahedron20": "C3D20", "tetra10": "C3D10", "wedge15": "C3D15", "hexah
 #: nodes of C3D27, centre before the middles of faces 1 to 6, by rows of meshio's
 _C3D27 = [*range(20), 26, 24, 25, 22, 21, 23, 20]
 #: SOLID186 of a wedge and of a tetrahedron, by rows of meshio's
-_SOLID186 = {"hexahedron20": range(20), "wedge15": [0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 2, 8, 9, 10, 5, 11, 12, 13, 14, 14],
+SOLID186 = {"hexahedron20": range(20), "wedge15": [0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 2, 8, 9, 10, 5, 11, 12, 13, 14, 14],
              "tetra10": [0, 1, 2, 2, 3, 3, 3, 3, 4, 5, 2, 6, 3, 3, 3, 3, 7, 8, 9, 9]}
 #: cast iron of the decks, in mm-t-s
 YOUNG, POISSON, DENSITY = 110000.0, 0.26, 7.1e-9
@@ -99,7 +99,7 @@ def ansys(mesh, tetra=187, scale=1e3, more=ANSYS_IRON, system=0):
     rows = []
     for number, kind, each in cells(mesh):
         own = kind == "tetra10" and tetra == 187
-        chosen = list(each) if own else [each[k] for k in _SOLID186[kind]]
+        chosen = list(each) if own else [each[k] for k in SOLID186[kind]]
         values = [1, 2 if own else 1, 1, 1, system, 0, 0, 0, len(chosen), 0, number, *chosen]
         rows += ["".join(f"{v:9d}" for v in values[:19]), "".join(f"{v:9d}" for v in values[19:])]
     count = len(mesh.element)

@@ -7,7 +7,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.ansys import read
 from pipeline.decks.meshes.body import read_body
 from pipeline.physics.fem.reference_cells import by_kind
-from tests.decks.meshes.small_decks import ansys, cube, ring
+from tests.decks.meshes.small_decks import SOLID186, ansys, cells, cube, ring
 
 pytestmark = pytest.mark.exact
 
@@ -40,8 +40,49 @@ def test_nodes_of_a_short_format(tmp_path):
 def test_what_is_not_read_is_said(tmp_path):
     more = "EBLOCK,10,,,2\n(15i9)\n        1        1\n       -1\nTB,PLAS,1\nTBDATA,1,2.\nD,ALL,ALL\nD,1,UX\n"
     result = deck(tmp_path / "a.cdb", ansys(cube(), more=more))
-    assert result.notes == ("not read: EBLOCK of surface or line elements, TB, TBDATA, D (2 times)",
+    assert result.notes == ("not read: EBLOCK of surface or line elements, TB PLAS of material 1, D (2 times)",
                             "8 elements of material 1, of which the file gives no value")
+
+
+def compact(mesh, number=186, width=21, head="", count=None):
+    """An input of Workbench: blocks without the 11 numbers, whose elements have what the commands before them say."""
+    nodes = [f"{k:9d}" + "".join(f"{x:20.9E}" for x in position) for k, position in enumerate(1e3 * mesh.node, 1)]
+    rows = []
+    for label, kind, each in cells(mesh):
+        chosen = list(each) if number == 187 else [each[k] for k in SOLID186[kind]]
+        values = [label, *chosen[:8 if number == 185 else None]]
+        rows += ["".join(f"{v:9d}" for v in values[k:k + width]) for k in range(0, len(values), width)]
+    return "\n".join(["/batch", "/prep7", f"et,4,{number}", head, f"nblock,3,,{len(nodes)}", "(1i9,3e20.9e3)", *nodes,
+                      "-1", "type,4", "mat,3", f"eblock,{width},COMPACT,,{count or len(mesh.element)}",
+                      f"({width}i9)", *rows, "-1", "MP,EX,3,110000.", "MP,NUXY,3,0.26", "MP,DENS,3,7.1e-9", "fini", ""])
+
+
+@pytest.mark.parametrize("kind, number, width", [
+    ("hexahedron20", 186, 21), ("hexahedron20", 186, 19), ("wedge15", 186, 21), ("tetra10", 186, 21),
+    ("mixed", 186, 11), ("tetra10", 187, 11), ("tetra10", 187, 19)])
+def test_compact_blocks(tmp_path, kind, number, width):
+    """In one line or several, hexahedra as they are or collapsed to wedges and tetrahedra."""
+    mesh = ring(kind)
+    (tmp_path / "ds.dat").write_text(compact(mesh, number, width))
+    made = read_body(tmp_path / "ds.dat", "mm-t-s")
+    for (name, _, nodes), (given, _, expected) in zip(
+            sorted(by_kind(made.mesh.kind, made.mesh.element)), sorted(by_kind(mesh.kind, mesh.element)), strict=True):
+        assert name == given and np.array_equal(nodes, expected)
+    assert np.allclose(made.mesh.node, mesh.node, atol=1e-9) and made.notes == ()
+    assert made.materials[0].young[0] == pytest.approx(110e9) and (made.element_material == 0).all()
+
+
+def test_compact_blocks_of_other_elements(tmp_path):
+    with pytest.raises(ConfigError, match="hexahedron; linear elements lock in shear"):
+        (tmp_path / "a.cdb").write_text(compact(cube(), 185, 9))
+        read_body(tmp_path / "a.cdb", "mm-t-s")
+    assert "elements of type 174 (8 times)" in deck(tmp_path / "b.cdb", compact(cube(), 174)).notes[0]
+    with pytest.raises(ConfigError, match="9 elements, as EBLOCK says, found 8"):
+        deck(tmp_path / "c.cdb", compact(cube(), count=9))
+    cut_off = compact(cube()).splitlines()
+    last = next(k for k, line in enumerate(cut_off) if line.startswith("type,4")) + 4
+    with pytest.raises(ConfigError, match="20 nodes of element 8, found 2"):
+        deck(tmp_path / "d.cdb", "\n".join([*cut_off[:last + 7], cut_off[last + 7][:27], "-1"]))
 
 
 def swapped(text, old, new):

@@ -10,6 +10,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.decks.meshes.body import read_body
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from tests.decks.meshes.small_decks import DENSITY, IRON, abaqus, ansys, cube, nastran, ring
+from tests.decks.meshes.test_abaqus_materials import LINING
 from tests.physics.fem.test_mesh_file import written
 
 pytestmark = pytest.mark.exact
@@ -87,6 +88,24 @@ def test_nodes_in_the_order_of_another_program_are_refused(tmp_path):
     swapped = type(mesh)(mesh.node, mesh.element[:, [*range(12), *range(16, 20), *range(12, 16)]], mesh.kind, mesh.cell)
     with pytest.raises(ConfigError, match="expected mid-side nodes near the middles.*node 1[37] of element 1 .*order"):
         body(tmp_path / "a.inp", abaqus(swapped))
+
+
+def test_axes_of_a_file_turned_to_those_of_the_program(tmp_path):
+    """A file whose disc turns about x, with a material, springs and their axes."""
+    mesh = ring()
+    about_x = type(mesh)(mesh.node[:, [2, 0, 1]], mesh.element, mesh.kind, mesh.cell)
+    more = LINING + "*ORIENTATION, NAME=AXES\n0, 1, 0, 0, 0, 1\n*ELEMENT, TYPE=SPRING2, ELSET=S\n900, 1, 2\n" \
+                    "*SPRING, ELSET=S\n1, 1\n5.\n"
+    (tmp_path / "a.inp").write_text(abaqus(about_x, more=more))
+    made = read_body(tmp_path / "a.inp", "mm-t-s", axes=("y", "z", "x"))
+    assert np.allclose(made.mesh.node, mesh.node) and made.springs[0].freedoms == (2, 2)
+    assert np.allclose(made.materials[0].axes, np.eye(3)), "E_1 along y of the file, which is x"
+    other = read_body(tmp_path / "a.inp", "mm-t-s", axes=("y", "-z", "-x"))
+    assert np.allclose(other.mesh.node, mesh.node * (1, -1, -1))
+    assert np.allclose(other.materials[0].axes, np.diag([1, -1, -1]))
+    (tmp_path / "b.inp").write_text(abaqus(about_x, more=more.replace("\n1, 1\n5.", "\n1, 2\n5.")))
+    with pytest.raises(ConfigError, match="spring s_900: expected .* whose axes mesh_axes turns alike"):
+        read_body(tmp_path / "b.inp", "mm-t-s", axes=("y", "-z", "-x"))
 
 
 def test_a_file_that_changed_is_read_again(tmp_path):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.decks.meshes.material import Material, rotated
+from pipeline.contract.errors import ConfigError
+from pipeline.decks.meshes.material import BY_COLUMNS, BY_ROWS, Material, Unread, rotated, symmetric
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
 
 pytestmark = pytest.mark.exact
@@ -31,3 +32,22 @@ def test_modulus_between_two_axes():
     given = orthotropic((e1, e2, 3e9), (0.1, 0.2, nu), (1e9, 1.1e9, g))
     compliance = np.linalg.inv(rotated(given, np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])))
     assert compliance[0, 0] == pytest.approx(c**4 / e1 + s**4 / e2 + (1 / g - 2 * nu / e1) * s**2 * c**2)
+
+
+def test_constants_of_a_matrix():
+    given = orthotropic((6e9, 2e9, 3e9), (0.1, 0.2, 0.25), (1e9, 1.1e9, 1.7e9))
+    made = Material("A", unread=Unread("a:1", "b", "c")).with_matrix(given, "a:2")
+    assert made.young == pytest.approx((6e9, 2e9, 3e9)) and made.poisson == pytest.approx((0.1, 0.2, 0.25))
+    assert made.shear == pytest.approx((1e9, 1.1e9, 1.7e9)) and made.matrix is None and made.unread is None
+    assert np.allclose(made.elasticity(), given)
+    assert Material("B").with_matrix(isotropic(2e11, 0.3), "a:2").isotropic
+    with pytest.raises(ConfigError, match="a:2, material A: expected elastic constants of a positive strain energy"):
+        made.with_matrix(-given, "a:2")
+
+
+@pytest.mark.parametrize("pairs", [BY_ROWS, BY_COLUMNS])
+def test_a_triangle_in_another_order_of_strains(pairs):
+    root = np.random.default_rng(2).normal(size=(6, 6))
+    given, order = root @ root.T, [0, 1, 2, 5, 3, 4]
+    values = [given[order[i], order[j]] for i, j in pairs]
+    assert np.allclose(symmetric(values, pairs, order), given)

@@ -68,8 +68,9 @@ def test_two_of_three_constants_and_wtmass(tmp_path):
 
 
 def test_properties_without_what_they_name(tmp_path):
-    other = deck(tmp_path / "a.bdf", nastran(cube(), more="PSOLID,1,5\nMAT9,5,1.\n"))
-    assert not other.sections and "PSOLID 1 names material 5, which is none of MAT1 and is not read" in other.notes
+    other = deck(tmp_path / "a.bdf", nastran(cube(), more="PLSOLID,1,5\nMATHP,5,1.\n"))
+    (_, name, axes), = other.sections
+    assert name == "MATHP 5" and axes is None and other.materials[name].unread.found == "MATHP 5, hyperelastic"
     lacking = deck(tmp_path / "a.bdf", nastran(cube(), more="PSOLID,2,7\nMAT1,7,1.+5,,.3\n"))
     assert not lacking.sections and "8 elements of PID 1, which no PSOLID gives" in lacking.notes
 

@@ -7,12 +7,13 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.fingerprint import settings_of
+from pipeline.decks.meshes.material import Material, Unread
 from pipeline.physics.fem.elasticity import isotropic
 from pipeline.systems.disc_brake_disc import disc, disc_mesh
 from pipeline.systems.mesh_files.bodies import notes as notes_of
-from pipeline.systems.mesh_files.materials import from_file, materials, read
+from pipeline.systems.mesh_files.materials import from_file, lining, materials, read
 from stages import model_update
-from stages.structure import Disc, Settings
+from stages.structure import Disc, Pad, Settings
 from tests.decks.meshes.small_decks import IRON, abaqus
 from tests.decks.meshes.test_abaqus_materials import LINING
 
@@ -75,6 +76,31 @@ def test_direction_dependent_constants(deck):
     assert material.young == pytest.approx((6e9, 5e9, 1.5e9)) and said[-1].endswith("constants of the file")
     (material,), _, said = materials(body, Disc(**named, young="100 GPa"), *DISC)
     assert material.isotropic and material.young[0] == 100e9 and "states young, which makes it isotropic" in said[-1]
+
+
+UNREAD = {"lamina": "*MATERIAL, NAME=B\n*ELASTIC, TYPE=LAMINA\n6e3, 6e3, .2, 2e3, 1e3, 1e3\n*DENSITY\n7.1e-9\n",
+          "hyperelastic": "*MATERIAL, NAME=B\n*DENSITY\n7.1e-9\n*HYPERELASTIC, YEOH\n1., 2., 3.\n"}
+
+
+@pytest.mark.parametrize("law", UNREAD)
+def test_a_law_that_is_not_read_is_never_the_default(deck, law):
+    named = deck("*SOLID SECTION, ELSET=ALL, MATERIAL=B\n" + UNREAD[law])
+    for values in ({}, {"young": "100 GPa"}):
+        with pytest.raises(ConfigError, match=r"disc.inp:\d+, material B: expected elastic constants of a solid that"
+                           rf" are read, found \*.*{law.upper()}.*; write \*ELASTIC, .* or state structure.disc: young"
+                           " and poisson in the case"):
+            disc(Disc(**named, **values))
+    made = disc(Disc(**named, young="100 GPa", poisson=0.3))
+    assert np.allclose(made.elasticity, isotropic(100e9, 0.3)) and made.density == pytest.approx([7100])
+
+
+def test_a_lining_that_is_not_read_asks_for_its_constants():
+    material, stated = Material("R", unread=Unread("a.inp:5", "*ELASTIC, TYPE=LAMINA", "write it")), Pad(
+        lining_young_normal="2 GPa")
+    with pytest.raises(ConfigError, match="a.inp:5, material R: .* or state structure.pad: lining_young_normal and"):
+        lining(material, Pad(), (), "structure.pad")
+    made, _ = lining(material, stated, ("lining_young_normal",), "structure.pad")
+    assert made.young == (6e9, 6e9, 2e9) and made.unread is None
 
 
 def test_without_a_file_nothing_is_said():

@@ -1,13 +1,15 @@
 """Pages of a run under way say what they stand on and what is to come; the last page says nothing of it."""
 
+import json
 import re
 from dataclasses import replace
 
 import pytest
 
 from pipeline.views.chapters.chapter import Look
-from pipeline.views.pages.early import first_page, later_page
+from pipeline.views.pages.early import first_page, later_page, unfinished_page
 from pipeline.views.pages.report import page
+from stages.report import Settings
 from tests.views import products_for_views as small
 
 AHEAD = ["convergence", "limit_cycle", "probability", "comparison"]
@@ -50,3 +52,16 @@ def test_the_last_page_is_not_marked():
     products = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
     text = text_of(page((), products, small.case(), Look()))
     assert "eing computed" not in text and "not complete" not in text
+
+
+def test_what_failed_stands_above_the_chapters_of_the_rest():
+    products = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
+    errors = {"limit_cycle": "limit_cycle: expected a mode, found <none>"}
+    html, verdict = unfinished_page(products, small.case(), errors, ["probability"], Settings(mode_pictures=0))
+    text = text_of(html)
+    assert "This report is not complete. The stage limit cycle could not be finished: limit_cycle: expected a mode," \
+        " found &lt;none&gt;. Not computed: probability." in text
+    assert 'id="convergence"' in html and 'id="complex_modes"' in html
+    assert json.loads(verdict)["warnings"][:2] == [
+        "The stage limit cycle could not be finished: limit_cycle: expected a mode, found <none>.",
+        "Not computed: probability."]

@@ -3,6 +3,7 @@
 from dataclasses import fields, replace
 
 import numpy as np
+import pytest
 
 from pipeline.views.pages.summary import published_squeal, verdict
 from tests.views import products_for_views as small
@@ -71,9 +72,28 @@ def test_what_was_not_refined_is_said_and_never_called_converged():
                     left_out=np.array(["disc_mesh", "contact"]), converged=np.array(0),
                     left_out_reason=np.array(["comes from a file", "was not asked for"]))
     told = verdict({"complex_modes": small.complex_modes(), "convergence": bases}, ())
-    assert told.headline.endswith("(converged as far as refined)") and told.tone == "warning"
-    assert "The same modes are unstable without the reduction" in said(told) and "Converged" not in said(told)
+    assert told.headline.endswith("(not shown to be converged: no mesh was refined)") and told.tone == "warning"
+    assert "Not shown to be converged: no mesh was refined. The same modes are unstable without the reduction" in \
+        said(told) and "Converged" not in said(told)
     assert "Not refined, and of unknown error: mesh of the disc and contact points." in said(told)
+
+
+@pytest.mark.parametrize("refined, left_out, words", [
+    (["contact", "pad_mesh", "bases"], ["disc_mesh"], "mesh of the disc was not refined"),
+    (["contact", "bases"], ["disc_mesh", "pad_mesh"], "mesh of the disc and mesh of the pads were not refined"),
+    (["contact", "bases"], ["disc_mesh", "pad_mesh", "caliper_mesh"], "3 of 5 parts were not refined")])
+def test_the_headline_says_in_short_what_was_not_refined(refined, left_out, words):
+    partly = replace(small.convergence(), refinement=np.array(refined), left_out=np.array(left_out),
+                     left_out_reason=np.array(["comes from a file"] * len(left_out)), converged=np.array(0))
+    told = verdict({"complex_modes": small.complex_modes(), "convergence": partly}, ())
+    assert told.headline.endswith(f"(not shown to be converged: {words})")
+
+
+def test_a_share_beyond_the_tolerance_that_a_small_growth_rate_has_is_no_claim():
+    """55 % of 16 1/s are within 10 1/s."""
+    slow = replace(small.convergence(), growth_share=np.array(0.55), growth_change=np.array(9.0))
+    told = said(verdict({"complex_modes": small.complex_modes(), "convergence": slow}, ()))
+    assert "growth rates within 9\u202f1/s" in told and "55" not in told.partition("growth rates")[2][:20]
 
 
 def test_unstable_modes_below_squeal_are_told_as_groan_or_moan():
