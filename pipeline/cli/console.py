@@ -90,7 +90,12 @@ class Bars:
     def log(self, message):
         """One line above the bars."""
         if self.console.is_terminal:
-            (self._live.console if self._live else self.console).print(message, highlight=False, markup=False)
+            self.remark(message)
+
+    def remark(self, message):
+        """One line above the bars, or where no terminal is."""
+        (self._live.console if self._live else self.console).print(message, highlight=False, markup=False,
+                                                                   soft_wrap=not self.console.is_terminal)
 
 
 @dataclass(frozen=True)
@@ -130,3 +135,6 @@ class RunContext(context.Context):
 
     def log(self, message):
         self.bars.log(message)
+
+    def remark(self, message):
+        self.bars.remark(message)

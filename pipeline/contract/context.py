@@ -85,3 +85,6 @@ class Context:
 
     def log(self, message):
         """One line for the user; silent here."""
+
+    def remark(self, message):
+        """One sentence on what was left out or taken for granted, for every user; silent here."""

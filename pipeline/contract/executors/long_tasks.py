@@ -63,8 +63,8 @@ class LongTasks:
             done, cpu = future.result()
         except BrokenProcessPool:
             raise killed() from None
-        for line in done.told:
-            self._context.log(line)
+        for hear, line in done.told:
+            getattr(self._context, hear)(line)
         self._run.publish(state.stage, done.output, current, done.wall, cpu)
         self._report(state, done.wall)
 
@@ -76,7 +76,10 @@ class _Telling(Context):
     lines: list = field(default_factory=list)
 
     def log(self, message):
-        self.lines.append(message)
+        self.lines.append(("log", message))
+
+    def remark(self, message):
+        self.lines.append(("remark", message))
 
 
 def made(work: Work) -> Made:

@@ -40,6 +40,8 @@ class Beside(Context):
     def log(self, message):
         self.told.append(message)
 
+    remark = log
+
 
 @pytest.fixture
 def job(tmp_path):
