@@ -77,8 +77,9 @@ def _leave_columns(found, folder):
 def _leave_array(array, path):
     """(name of the file, dtype, length) of an array; one that lies in a file of the folder already stays there."""
     values, file = np.asarray(array), map_of(array)
-    path = path if file is None else Path(file.path)
-    if file is None:
+    named = file is not None and file.path is not None
+    path = Path(file.path) if named else path
+    if not named:
         with path.open("wb") as stream:
             for block in blocks(values):
                 stream.write(np.ascontiguousarray(block))

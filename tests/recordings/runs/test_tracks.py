@@ -63,3 +63,19 @@ def test_a_calibrator_of_another_channel_is_refused(tmp_path):
         made(tmp_path / "a.wav", "audio", columns={"mic": Track.model_construct(
             column="1", unit=None, measures=None, factor=1.0, role="response", place="", direction=(),
             calibrator=calibrator)})
+
+
+def test_long_channels_of_a_bus_are_those_of_memory(tmp_path, monkeypatch):
+    """Their time stamps, which they have in common, lie in a file without a name while they are read."""
+    import asammdf
+
+    monkeypatch.setattr("pipeline.contract.mapped.LARGE", 1 << 10)
+    times = 1.0 + np.arange(2000) / 100 + 1e-3 * np.sin(np.arange(2000))
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(np.sin(times), times, name=name, unit="bar") for name in ("front", "rear")])
+        path = file.save(str(tmp_path / "a.mf4"))
+    channels, _, told = made(path, "mdf")
+    assert len(told) == 1 and "front, rear: time stamps are" in told[0]
+    for one in channels.values():
+        instants = float(one.begin) + np.arange(len(one.samples)) / float(one.rate)
+        np.testing.assert_allclose(one.samples, 1e5 * np.sin(instants), atol=20.0)
