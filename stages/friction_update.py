@@ -127,8 +127,8 @@ def _samples(name, run, settings):
         raise ConfigError("friction_update.slides", f"channels of run {name}: {', '.join(run.channels)}",
                           ", ".join(lacking))
     channels = [run.channels[c] for c in (slides.load, slides.friction, slides.position)]
-    if len({(float(c.rate), len(c.samples)) for c in channels}) > 1:
-        raise ConfigError("friction_update.slides", f"channels of run {name} of one rate and length", "several")
+    if len({(float(c.rate), float(c.begin), len(c.samples)) for c in channels}) > 1:
+        raise ConfigError("friction_update.slides", f"channels of run {name} of one rate, begin and length", "several")
     stated = {name: float(np.mean(condition.value)) for name, condition in run.conditions.items()}
     return of_slides(name, *(with_gaps(c) for c in channels), float(channels[0].rate), slides.area,
                      stated.get("temperature", SILENT["temperature"]), slides.settle,

@@ -73,7 +73,7 @@ def matrices(settings: Settings, context: Context) -> Matrices:
         remarks += [remark] if remark else []
     kept, told = _kept(terms, size, labels)
     for remark in (remarks := remarks + told):
-        context.note(remark)
+        context.remark(remark)
     if len(kept) < size:
         terms = {name: _without(term, kept, size) for name, term in terms.items()}
     return Matrices(size=len(kept), node=labels[kept, 0] if len(labels) else [],

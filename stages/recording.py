@@ -1,7 +1,6 @@
 """Stage recording: test bench recordings, read from any supported file format into one product."""
 
-from collections import Counter
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 from typing import Literal
 
@@ -9,20 +8,18 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
-from pipeline.contract.units import in_si, measured_in
-from pipeline.physics.signals.spectra import HEARING
+from pipeline.contract.units import in_si
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
 from pipeline.recordings.columns import read_table, table
 from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
-from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, steady_tone, stretch
+from pipeline.recordings.runs.imported import Imported
+from pipeline.recordings.runs.tracks import channels_of
+from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, stretch
 from pipeline.recordings.survey.meanings import split_unit
-from pipeline.recordings.waveform import SPELT, free_name, plain_name
+from pipeline.recordings.waveform import plain_name
 from pipeline.validation.published_facts import load
-
-#: kinds of a calibrator's file by its suffix; any other is sound
-_KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
 
 
 class Column(Section):
@@ -47,7 +44,7 @@ class Given(Section):
 class Stretch(Section):
     """A run: a segment of the record."""
 
-    begin: Quantity("s") | None = option(None, "first instant; none = that of the record")
+    begin: Quantity("s") | None = option(None, "first instant, on the clock of the run; none = that of the record")
     end: Quantity("s") | None = option(None, "instant before which it ends; none = end of the record")
     rows: tuple[int, int] | None = option(None, "first row of a file of columns, counted from 0, and the one behind its"
                                                 " last, where times begin anew in one file; none = all")
@@ -56,8 +53,22 @@ class Stretch(Section):
     conditions: dict[str, Given] = option({}, "conditions by name")
 
 
-class _Columns(Section):
+class Common(Section):
+    """Two channels that show the same once, such as a knock or a pulse."""
+
+    channel: str = option(..., "one of this file")
+    other: str = option(..., "one that the run has by a file further up in the list")
+
+
+class _Clocked(Section):
     file: InputFile = option(..., "the file; measured:NAME for a public one")
+    offset: Quantity("s") | None = option(None, "what is added to its times, so that they are those of a run that files"
+                                          " further up have begun; none = by 'common', else by the time stamps of both")
+    offset_std: Quantity("s", ge=0) = option("0 s", "standard deviation of the offset")
+    common: Common | None = option(None, "channels by which the offset is found; none = it is not")
+
+
+class _Columns(_Clocked):
     columns: dict[str, Column] = option(..., "channels by name", min_length=1)
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate; none = from the column of times")
     time: str | None = option(None, "column with the times; with a sampling rate it tells lost samples")
@@ -84,13 +95,14 @@ class Track(Column):
     calibrator: Calibrator | None = option(None, "of a microphone: gives the factor, to Pa")
 
 
-class Waveforms(Section):
+class Waveforms(_Clocked):
     """A file of channels, each with its rate: sound (WAV, FLAC, ...), TDMS or MDF."""
 
     kind: Literal["audio", "tdms", "mdf"]
-    file: InputFile = option(..., "the file; measured:NAME for a public one")
     columns: dict[str, Track] = option({}, "channels by name; none = all of the file, under their own names")
-    sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none")
+    sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none; of uneven time"
+                                                     " stamps that of the grid that they are put on")
+    time: str | None = option(None, "channel with the times, 'GROUP/CHANNEL' of a TDMS file; none = by its name")
     runs: dict[str, Stretch] = option({}, "runs by name: stretches of the record; none = one run, named as the file")
 
 
@@ -108,11 +120,10 @@ class Table(_Columns):
     skip: int = option(0, "lines before the head", ge=0)
 
 
-class Uff(Section):
+class Uff(_Clocked):
     """A universal file: one run."""
 
     kind: Literal["uff"] = "uff"
-    file: InputFile = option(..., "the file; measured:NAME for a public one")
     run: str = option(..., "name of the run")
     units: dict[str, str] = option({}, "unit of a response where the file says none")
     description: str = option("", "what was done")
@@ -120,11 +131,10 @@ class Uff(Section):
     conditions: dict[str, Given] = option({}, "conditions by name")
 
 
-class Neutral(Section):
+class Neutral(_Clocked):
     """Plain HDF5 in the form that 'brakechain data format' prints."""
 
     kind: Literal["hdf5"] = "hdf5"
-    file: InputFile = option(..., "the file; measured:NAME for a public one")
 
 
 class FrictionColumn(Section):
@@ -193,42 +203,18 @@ def recording(settings: Settings, context: Context) -> Recording:
 
     Method:
     Recordings were converted to SI units and cut into runs as stated in the case. Missing samples are marked; nothing
-    was filtered, and only what the case says was resampled.
+    was filtered. Samples at uneven instants lie on even grids, and files of one run on one clock, as the remarks tell.
     """
-    collected, source = {}, []
-    for number, file in enumerate(settings.files):
-        new_runs = READ[file.kind](file, _Refused(settings.keep_going, context.log))
-        twice = set(new_runs) & set(collected)
-        if twice:
-            raise ConfigError(f"recording.files.{number}", "run names that are not taken", ", ".join(sorted(twice)))
-        collected |= new_runs
+    imported, source = Imported(settings.keep_going, context.remark), []
+    for file in settings.files:
+        imported.add(READ[file.kind](file, imported), f"{file.file}")
         source.append(f"{file.file.name} {digest(file.file)}")
-    _check_repeats(collected)
-    context.log(f"{len(collected)} runs: {', '.join(collected)}")
-    return Recording(source=source, runs=collected)
+    _check_repeats(imported.runs)
+    context.log(f"{len(imported.runs)} runs: {', '.join(imported.runs)}")
+    return Recording(source=source, remarks=imported.remarks, runs=imported.runs)
 
 
-@dataclass(frozen=True)
-class _Refused:
-    """What becomes of a channel that cannot be used: the error ends the import, or is told and the channel left out."""
-
-    keep_going: bool
-    tell: object
-
-    def channels(self, makers):
-        """{name: Channel} of ``makers`` {name: () -> Channel}."""
-        made = {}
-        for name, make in makers.items():
-            try:
-                made[name] = make()
-            except ConfigError as error:
-                if not self.keep_going:
-                    raise
-                self.tell(f"left out: {error}")
-        return made
-
-
-def _from_columns(file, columns, units, refused):
+def _from_columns(file, columns, units, imported):
     """Runs of a file of columns, {name: values} and what it says of their {name: unit}."""
     where, found = f"{file.file}", {}
     _refuse_unknown(file, columns, f"{where}: ")
@@ -236,80 +222,28 @@ def _from_columns(file, columns, units, refused):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
         values, rate, begin = _sampled(file, values, part, units, f"{where}: time")
-        whole = refused.channels({
+        whole = imported.channels({
             name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
                           place=w.place, direction=w.direction) for name, w in file.columns.items()})
-        found |= _cut({name: run for name, run in file.runs.items() if run.rows == rows}, whole, where, refused)
+        found |= _cut(file, {name: run for name, run in file.runs.items() if run.rows == rows}, whole, imported)
     return {name: found[name] for name in file.runs}
 
 
-def _cut(runs, whole, where, refused):
-    """The ``runs`` of a case, stretches of the channels ``whole``."""
-    return {name: _run(refused.channels({k: partial(stretch, c, run.begin, run.end, f"{where}: runs.{name}")
-                                         for k, c in whole.items()}), run, f"{where}: runs.{name}")
+def _cut(file, runs, whole, imported, stamp=None):
+    """The ``runs`` of a case, stretches of the channels ``whole`` of a file on their clock."""
+    whole, clocks = imported.on_clock(file, list(runs), whole, stamp)
+    return {name: _run(imported.channels({k: partial(stretch, c, run.begin, run.end, f"{file.file}: runs.{name}")
+                                          for k, c in whole.items()}), run, f"{file.file}: runs.{name}", clocks=clocks)
             for name, run in runs.items()}
 
 
-def _from_waveforms(file, refused):
+def _from_waveforms(file, imported):
     """Runs of a file whose channels have their own rates, and maybe units."""
-    where, found = f"{file.file}", waveforms(file.kind, file.file)
-    _refuse_unknown(file, found, f"{where}: ")
-    tracks, names = file.columns or _tracks(found, file.sample_rate, where, refused.tell), list(found)
-    uses = Counter(track.column for track in tracks.values())
-
-    def made(name, track):
-        uses[track.column] -= 1     # long records: a column is let go once all channels of it are made
-        waveform = found[track.column] if uses[track.column] else found.pop(track.column)
-        return _track(track, waveform, file.sample_rate, f"{where}: {name}")
-
-    whole = refused.channels({name: partial(made, name, track) for name, track in tracks.items()})
-    if not whole:
-        raise ConfigError(where, "a channel that can be used", f"none of {', '.join(names)}",
-                          "name channels under 'columns', with unit and what they measure")
+    whole, stamp = channels_of(file, imported, Track)
     rows = next((name for name, run in file.runs.items() if run.rows is not None), None)
     if rows is not None:
-        raise ConfigError(f"{where}: runs.{rows}.rows", "begin and end, in s: the file has no rows", "rows")
-    return _cut(file.runs or {plain_name(file.file.stem, "run"): Stretch()}, whole, where, refused)
-
-
-def _tracks(found, rate, where, tell):
-    """{name: Track} of the channels that the file itself says enough of; tells which are left out, and why."""
-    tracks = {}
-    for name, waveform in found.items():
-        lacks = [what for what, there in (("unit", SPELT.get(waveform.unit, waveform.unit)),
-                                          ("even sampling", waveform.rate or rate)) if not there]
-        if lacks and len(found) > 1:
-            tell(f"{where}: {name} left out: the file states no {' and no '.join(lacks)}; name it under 'columns'")
-        else:
-            tracks[free_name(plain_name(name), tracks)] = Track(column=name)
-    return tracks
-
-
-def _track(track, waveform, rate, where):
-    """The Channel of a Track of a file."""
-    written = waveform.unit if track.unit is None else track.unit
-    unit, factor = SPELT.get(written, written) or None, track.factor
-    if track.calibrator is not None:
-        if track.unit is not None or factor != 1.0:
-            raise ConfigError(f"{where}: calibrator", "no unit and no factor beside it, which it gives", "one of them")
-        unit, factor = "Pa", _pascal(track.calibrator, where)
-    if unit is None:
-        raise ConfigError(f"{where}: unit", "a unit in the file or in the case", "none", "add unit and measures, of a"
-                          " sound file also factor (value of full scale) or calibrator")
-    measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit"))
-    return channel(waveform.values, unit, measures, waveform.rate or rate or np.nan, waveform.begin, where,
-                   factor=factor, narrow=True, role=track.role, place=track.place, direction=track.direction)
-
-
-def _pascal(calibrator, where):
-    """Pa per unit of a channel by a record of its calibrator: the tone of a calibrator rules its level."""
-    found = waveforms(_KINDS.get(calibrator.file.suffix.lower(), "audio"), calibrator.file)
-    if calibrator.column not in found:
-        raise ConfigError(f"{where}: calibrator.column", f"one of {', '.join(found)}", repr(calibrator.column))
-    effective = steady_tone(np.asarray(found[calibrator.column].values, float))
-    if effective is None:
-        raise ConfigError(f"{where}: calibrator", "the steady tone of a calibrator", "none")
-    return HEARING * 10.0 ** (calibrator.level / 20.0) / effective
+        raise ConfigError(f"{file.file}: runs.{rows}.rows", "begin and end, in s: the file has no rows", "rows")
+    return _cut(file, file.runs or {plain_name(file.file.stem, "run"): Stretch()}, whole, imported, stamp)
 
 
 def _refuse_unknown(file, columns, where):
@@ -342,6 +276,18 @@ def _from_uff(file):
     return {file.run: _run(found.channels, file, f"{file.file}", frf=found.frf, modes=found.modes)}
 
 
+def _on_clock(file, found, imported):
+    """Runs {name: Run} of a file that holds whole runs, on the clock of those of the same name."""
+    made = {}
+    for name, run in found.items():
+        channels, clocks = imported.on_clock(file, [name], run.channels)
+        shift = sum(float(clock.offset) for clock in clocks.values())
+        made[name] = replace(run, channels=channels, clocks=clocks, conditions={
+            key: replace(one, time=one.time + shift) if len(one.time) > 1 else one
+            for key, one in run.conditions.items()})
+    return made
+
+
 def _from_friction(file):
     """The run of a table of measured friction."""
     where, columns = f"{file.file}", read_table(file.file, file.delimiter, file.skip)
@@ -362,12 +308,13 @@ def _from_facts(file):
 
 
 #: kind of file -> its runs by name
-READ = {"matlab": lambda file, refused: _from_columns(file, {
-            name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, {}, refused),
-        "table": lambda file, refused: _from_columns(file, *table(file.file, file.delimiter, file.skip), refused),
+READ = {"matlab": lambda file, imported: _from_columns(file, {
+            name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, {}, imported),
+        "table": lambda file, imported: _from_columns(file, *table(file.file, file.delimiter, file.skip), imported),
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
-        "uff": lambda file, _: _from_uff(file), "friction": lambda file, _: _from_friction(file),
-        "lines": lambda file, _: _from_facts(file), "hdf5": lambda file, _: runs("hdf5", file.file)}
+        "uff": lambda file, imported: _on_clock(file, _from_uff(file), imported),
+        "friction": lambda file, _: _from_friction(file), "lines": lambda file, _: _from_facts(file),
+        "hdf5": lambda file, imported: _on_clock(file, runs("hdf5", file.file), imported)}
 
 
 def _run(channels, stated, where, **more):

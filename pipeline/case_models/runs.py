@@ -16,6 +16,8 @@ from pipeline.physics.virtual_rig.band_limited import refined
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.sensor import measurand
 
+#: intervals by which channels of one run may begin apart
+_TOGETHER = 0.01
 #: what an input of each unit is
 _FEEDS = {"m": "a displacement", "N": "a force", "rad": "an angle", "N m": "a torque"}
 #: conditions that a bench reads by themselves, and their units
@@ -109,6 +111,10 @@ def _recorded(name, run, settings, model_inputs):
         raise ConfigError(f"run {name}", "channels of one rate and length",
                           f"{sorted(rates)} Hz, {sorted(lengths)} samples", "resample them to one rate first")
     rate, count = rates.pop(), lengths.pop()
+    begins = [float(run.channels[c].begin) for c in (*seen, *(f.channel for f in fed.values()))]
+    if (max(begins) - min(begins)) * rate > _TOGETHER:
+        raise ConfigError(f"run {name}", "channels that begin at one instant", f"{min(begins):.9g} s to"
+                          f" {max(begins):.9g} s", "state begin and end of the run, in recording.files, where all are")
     _check_fed(name, run, settings, model_inputs)
     inputs = {key: model_inputs.get(key, ("N", 1.0))[1] * _fed(given, run) for key, given in settings.inputs.items()}
     inputs |= {key: led(courses[name], np.arange(count) / rate, f"bench.courses.{key}.{name}")

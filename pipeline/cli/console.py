@@ -92,10 +92,9 @@ class Bars:
         (self._live.console if self._live else self.console).print(message, highlight=False, markup=False,
                                                                    soft_wrap=not self.console.is_terminal)
 
-    def note(self, message):
-        """One line that is told in a pipe too, there without a break."""
-        console = self._live.console if self._live else self.console
-        console.print(f"note: {message}", highlight=False, markup=False, soft_wrap=not console.is_terminal)
+    def remark(self, message):
+        """The same of what was left out or taken for granted."""
+        self.log(f"note: {message}")
 
 
 @dataclass(frozen=True)
@@ -136,5 +135,5 @@ class RunContext(context.Context):
     def log(self, message):
         self.bars.log(message)
 
-    def note(self, message):
-        self.bars.note(message)
+    def remark(self, message):
+        self.bars.remark(message)

@@ -61,9 +61,14 @@ def _as_uff(file, run, _):
 
 
 def _as_sound(file, run, full_scale):
+    from pipeline.contract import ConfigError
     from pipeline.recordings.audio import write_audio
     from pipeline.recordings.samples import with_gaps
 
+    begins = {float(c.begin) for c in run.channels.values()}
+    if len(begins) > 1:
+        raise ConfigError(file, "channels that begin at one instant", f"{min(begins):.9g} s to {max(begins):.9g} s",
+                          "choose some of them, or cut the run in its case where all are")
     largest = max((abs(c.samples).max() for c in run.channels.values()), default=0.0)
     write_audio(file, {n: (with_gaps(c), float(c.rate)) for n, c in run.channels.items()}, full_scale or largest or 1.0)
 

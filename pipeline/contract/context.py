@@ -86,5 +86,5 @@ class Context:
     def log(self, message):
         """One line for the user; silent here."""
 
-    def note(self, message):
-        """One line on what was guessed or left out of an input, which is told in a pipe too; silent here."""
+    def remark(self, message):
+        """One sentence on what was left out or taken for granted, for every user; silent here."""

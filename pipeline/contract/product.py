@@ -30,9 +30,10 @@ def count(dims, meaning):
     return quantity("1", dims, meaning, np.int64)
 
 
-def text(dims, meaning):
-    """Declare one array of strings (names, notes)."""
-    return quantity("1", dims, meaning, str)
+def text(dims, meaning, empty=False):
+    """Declare one array of strings (names, notes); ``empty``: a list of them, without any where none are given."""
+    one = quantity("1", dims, meaning, str)
+    return field(default=(), metadata=one.metadata) if empty else one
 
 
 def part(meaning):

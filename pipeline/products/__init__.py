@@ -38,6 +38,7 @@ from pipeline.products.predicted_squeal import Countermeasures, LimitCycle, Nois
 from pipeline.products.recording import (
     Channel,
     Condition,
+    FileClock,
     FrequencyResponse,
     Lines,
     MeasuredFriction,
@@ -68,7 +69,7 @@ from pipeline.products.systems.design_search import DesignSearch
 from pipeline.products.systems.matrices import Matrices, MatrixModes, MatrixTerm, RootsOfMatrices
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "BenchStops", "Body", "Channel", "Comparison", "ComplexModes",
-           "Condition", "Convergence", "Countermeasures", "DesignSearch", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
+           "Condition", "Convergence", "Countermeasures", "DesignSearch", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "FileClock", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "MeshTie", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Sensitivities", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",

@@ -106,7 +106,16 @@ class MeasuredFriction:
     temperature: Array = quantity("K", "sample", "temperature")
 
 
-@product(version=2)
+@product(version=1)
+class FileClock:
+    """Where the times of a file lie on the clock of a run."""
+
+    offset: Array = quantity("s", "", "what was added to the times of the file")
+    offset_std: Array = quantity("s", "", "its standard deviation; 0 where none is stated")
+    origin: Array = text("", "how it is known: stated, by time stamps, or by channels that both files hold")
+
+
+@product(version=3)
 class Run:
     """One run on a test bench, or a declared stretch of a long record."""
 
@@ -120,6 +129,7 @@ class Run:
     lines: dict[str, Lines] = parts("published peak lists by name", empty=True)
     topography: dict[str, Topography] = parts("height maps by name", empty=True)
     friction: dict[str, MeasuredFriction] = parts("measured friction by name", empty=True)
+    clocks: dict[str, FileClock] = parts("offsets of the files that it is made of, by file", empty=True)
 
     def telling(self, condition, unit=None):
         """{name: Channel} of those that tell one of CONDITIONS, in its ``unit`` if not another; no pressure of sound.
@@ -129,11 +139,12 @@ class Run:
                 and str(channel.measures) in measures and not (condition == "pressure" and channel.heard())}
 
 
-@product(version=2)
+@product(version=3)
 class Recording:
     """Measured data in one format; simulations embed the same runs in their products."""
 
     source: Array = text("source", "files that it was read from, with SHA-256")
+    remarks: Array = text("remark", "what was left out, taken for granted or made of what the files hold", empty=True)
     runs: dict[str, Run] = parts("runs by name")
 
 

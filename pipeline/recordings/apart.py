@@ -18,15 +18,17 @@ from pipeline.recordings.tdms import read_tdms
 from pipeline.recordings.uff import read_uff
 from pipeline.recordings.waveform import Waveform
 
+_ARRAYS = ("values", "times")
 _COLUMNS, _RUNS, _LEAVE = "columns.json", "runs.h5", "pipeline.recordings.apart:leave"
 
 
-def waveforms(kind, path):
-    """{name: Waveform} of the file at ``path`` of this ``kind``: matlab, columns, audio, tdms or mdf.
+def waveforms(kind, path, **given):
+    """{name: Waveform} of the file at ``path`` of this ``kind``: matlab, columns, audio, tdms or mdf; ``given`` goes to
+    its reader.
 
     Raises ConfigError as its reader does, and for a file that its reader does not survive or is not done with in time.
     """
-    return answered(_LEAVE, path, _columns_of, kind=kind)
+    return answered(_LEAVE, path, _columns_of, kind=kind, **given)
 
 
 def runs(kind, path, **given):
@@ -50,29 +52,38 @@ def _runs_of(folder):
 
 def _columns_of(folder):
     """Waveforms whose values are maps of files that are gone from the folder, but last as long as these."""
-    return {name: Waveform(_left(folder / Path(file).name, np.dtype(dtype), count), *rest)
-            for name, file, dtype, count, *rest in json.loads((folder / _COLUMNS).read_text())}
+    return {name: Waveform(**{key: _left(folder, *value) if key in _ARRAYS else value for key, value in told.items()})
+            for name, told in json.loads((folder / _COLUMNS).read_text())}
 
 
-def _left(file, dtype, count):
+def _left(folder, name, dtype, count):
+    file, dtype = folder / Path(name).name, np.dtype(dtype)
     if file.stat().st_size != count * dtype.itemsize:
         raise ValueError(f"{file.stat().st_size} bytes of {count * dtype.itemsize}")
     return mapped(opened(file, lasting=False), dtype, (count,)) if count else np.empty(0, dtype)
 
 
 def _leave_columns(found, folder):
-    """Values that lie in a file of the folder already stay there; others are written."""
     table = []
     for k, (name, waveform) in enumerate(found.items()):
-        values, file = np.asarray(waveform.values), map_of(waveform.values)
-        path = folder / f"{k}.bin" if file is None else Path(file.path)
-        if file is None:
-            with path.open("wb") as stream:
-                for block in blocks(values):
-                    stream.write(np.ascontiguousarray(block))
-        table.append((name, path.name, values.dtype.str, len(values), waveform.unit,
-                      None if waveform.rate is None else float(waveform.rate), float(waveform.begin)))
+        told = {"unit": waveform.unit, "rate": None if waveform.rate is None else float(waveform.rate),
+                "begin": float(waveform.begin), "stamp": waveform.stamp, "remark": waveform.remark}
+        told |= {key: _leave_array(getattr(waveform, key), folder / f"{k}.{key}") for key in _ARRAYS
+                 if getattr(waveform, key) is not None}
+        table.append((name, told))
     (folder / _COLUMNS).write_text(json.dumps(table))
+
+
+def _leave_array(array, path):
+    """(name of the file, dtype, length) of an array; one that lies in a file of the folder already stays there."""
+    values, file = np.asarray(array), map_of(array)
+    named = file is not None and file.path is not None
+    path = Path(file.path) if named else path
+    if not named:
+        with path.open("wb") as stream:
+            for block in blocks(values):
+                stream.write(np.ascontiguousarray(block))
+    return path.name, values.dtype.str, len(values)
 
 
 def _leave_runs(found, folder):

@@ -1,13 +1,15 @@
 """Sound files: WAV, RF64, FLAC, AIFF and what else libsndfile reads. The door of soundfile."""
 
+import re
 import struct
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.mapped import Growing
-from pipeline.recordings.waveform import Waveform, library
+from pipeline.recordings.waveform import Waveform, library, stamped
 
 #: begins of RIFF files, little and big endian; RF64 and BW64 state their sizes in a chunk of their own
 _RIFF = {b"RIFF": "<", b"RIFX": ">"}
@@ -17,6 +19,8 @@ _WIDE = ("PCM_32", "DOUBLE")
 _BLOCK = 1 << 17
 #: size of a data chunk that a program left open: it is not known
 _OPEN = (0, 0xFFFFFFFF)
+#: bytes of the chunk bext up to its samples since midnight, and before its date
+_DESCRIBED, _DATE = 346, 320
 
 
 def read_audio(path, folder=None):
@@ -26,7 +30,7 @@ def read_audio(path, folder=None):
     samples than it declares or none.
     """
     sound = library("soundfile", "soundfile", path)
-    _refuse_cut(path)
+    described = _checked(path)
     try:
         with sound.SoundFile(str(path)) as file:
             declared, rate = file.frames, float(file.samplerate)
@@ -40,7 +44,8 @@ def read_audio(path, folder=None):
     found = [column.array() for column in columns]
     if len(found[0]) < max(declared, 1):
         raise ConfigError(path, f"{max(declared, 1)} samples", f"{len(found[0])}", "the file is cut off: copy it again")
-    return {str(k + 1): Waveform(values, "", rate) for k, values in enumerate(found)}
+    stamp = _stamp(described, rate)
+    return {str(k + 1): Waveform(values, "", rate, stamp=stamp) for k, values in enumerate(found)}
 
 
 def write_audio(path, channels, full_scale):
@@ -66,20 +71,42 @@ def write_audio(path, channels, full_scale):
     sound.write(str(path), table, round(rates[0]), subtype="PCM_24", format="WAV")
 
 
-def _refuse_cut(path):
-    """Refuse a RIFF file whose data chunk declares more bytes than there are: libsndfile reads what it finds."""
-    path = Path(path)
+def _checked(path):
+    """What the chunk bext of a Broadcast Wave File holds, b'' without one (EBU Tech 3285).
+
+    Refuses a RIFF file whose data chunk declares more bytes than there are: libsndfile reads what it finds.
+    """
+    path, described = Path(path), b""
     try:
         size = path.stat().st_size
         with path.open("rb") as file:
             order = _RIFF.get(file.read(12)[:4])
             while order and len(head := file.read(8)) == 8:
                 length = struct.unpack(f"{order}I", head[4:])[0]
-                if head[:4] == b"data":
-                    if length not in _OPEN and file.tell() + length > size:
-                        raise ConfigError(path, f"{length} bytes of samples", f"{size - file.tell()}",
-                                          "the file is cut off: copy it again")
-                    return
+                if head[:4] == b"bext":
+                    described = file.read(_DESCRIBED)
+                    file.seek(-len(described), 1)
+                if head[:4] == b"data" and length in _OPEN:
+                    break
+                if head[:4] == b"data" and file.tell() + length > size:
+                    raise ConfigError(path, f"{length} bytes of samples", f"{size - file.tell()}",
+                                      "the file is cut off: copy it again")
                 file.seek(length + length % 2, 1)
     except OSError as error:
         raise ConfigError(path, "a readable sound file", str(error)) from None
+    return described
+
+
+def _stamp(described, rate):
+    """Stamp of a Waveform by the chunk bext: date, and samples since midnight or else time of day; None without."""
+    text = described[_DATE:_DATE + 18].decode("latin-1")
+    try:
+        date = datetime.strptime(re.sub(r"\D", "-", text[:10]), "%Y-%m-%d").replace(tzinfo=UTC)
+        clock = [int(number) for number in re.split(r"\D", text[10:])]
+    except ValueError:
+        return None
+    samples = struct.unpack_from("<Q", described, _DATE + 18)[0] if len(described) == _DESCRIBED else 0
+    hours, minutes, seconds = clock if len(clock) == 3 else (0, 0, 0)
+    of_day = samples / rate if samples else 3600 * hours + 60 * minutes + seconds
+    found = stamped(round(1e6 * (date.timestamp() + of_day)))
+    return found and (found[0], 1.0 / rate if samples else 1.0)

@@ -12,17 +12,35 @@ from pipeline.contract.errors import ConfigError
 #: units as measurement systems write them, and as they are read; none where nothing is stated
 SPELT = {"NONE": "", "none": "", "-": "", "?": ""}
 
+#: 1990 in microseconds since 1970: earlier instants are those that programs begin to count at
+_SET = 631_152_000_000_000
+
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
 @dataclass(frozen=True)
 class Waveform:
-    """``values`` (sample,) in ``unit`` ('': none told), at ``rate`` in Hz (None: none told), from ``begin`` in s."""
+    """``values`` (sample,) in ``unit`` ('': none told), at ``rate`` in Hz (None: none told), from ``begin`` in s.
+
+    ``times`` (sample,) in s: instants of samples that are not even; None of others. ``stamp``: (time 0 s in seconds
+    since 1970, UTC; steps in s that it is written in), None where the file tells none. ``remark``: what the reader left
+    out of it or took for granted; a channel without values is left out itself.
+    """
 
     values: np.ndarray
     unit: str = ""
     rate: float | None = None
     begin: float = 0.0
+    times: np.ndarray | None = None
+    stamp: tuple | None = None
+    remark: str = ""
+
+
+def stamped(microseconds):
+    """Stamp of a Waveform of an instant in whole microseconds since 1970, None of one before 1990: it was never set."""
+    if microseconds < _SET:
+        return None
+    return microseconds / 1e6, next(step / 1e6 for step in (10**6, 10**3, 1) if microseconds % step == 0)
 
 
 def held_as(dtype):

@@ -38,6 +38,14 @@ def test_missing_samples_are_masked():
     assert np.flatnonzero(~one.valid[0]).tolist() == [3, 4]
 
 
+def test_channels_that_begin_apart_are_refused():
+    found = recording()
+    run = found.runs["level_1"]
+    late = replace(run.channels["x"], begin=np.array(float(run.channels["x"].begin) + 3.0))
+    with pytest.raises(ConfigError, match="run level_1: expected channels that begin at one instant, found 0 s to 3 s"):
+        recorded(replace(found, runs={"level_1": replace(run, channels={**run.channels, "x": late})}), laid_out())
+
+
 @pytest.mark.parametrize("more, said", [
     ({"channels": {"y": {"quantity": "displacement", "source": "block"}}}, "bench.channels"),
     ({"inputs": {"shaker": {"channel": "forc"}}}, "bench.inputs.shaker.channel")])

@@ -58,3 +58,13 @@ def test_channels_and_full_scale_can_be_chosen(recording):
 def test_what_cannot_be_exported_is_refused(recording, name, options, told):
     with pytest.raises(BrakechainError, match=told):
         exported(recording, name, *options)
+
+
+def test_sound_of_channels_that_begin_apart_is_refused(tmp_path):
+    channels = {name: channel(VALUES, "Pa", "sound_pressure", 48000.0, begin, name)
+                for name, begin in (("mic", 0.0), ("late", 1.5))}
+    path = tmp_path / "recording.h5"
+    store.write(Recording(source=[], runs={"stop": Run(description="", repeat_of="", channels=channels)}), path, {})
+    with pytest.raises(BrakechainError, match="channels that begin at one instant, found 0 s to 1.5 s"):
+        exported(path, "out.wav")
+    assert exported(path, "out.wav", "--channels", "late").exists()

@@ -25,7 +25,9 @@ def test_the_contents_are_those_of_the_reader(tmp_path):
                              ("tdms", tdms(tmp_path / "a.tdms"), "bench/pad"), ("mdf", mdf(tmp_path / "a.mf4"), "pad")):
         found = apart.waveforms(kind, path)
         np.testing.assert_allclose(found[name].values, SINE, atol=2**-22)
-    assert found["line"].unit == "bar"
+    assert found["line"].unit == "bar" and found["line"].stamp is not None
+    np.testing.assert_allclose(found["disc speed"].times, (np.arange(10) / 10) ** 2)
+    assert apart.waveforms("tdms", tmp_path / "a.tdms")["bench/note"].remark == "it holds no numbers"
     found = apart.runs("uff", test_uff.write(tmp_path / "a.uff", ordinate_axis_units_lab="NONE"), units={"acc_1": "g"})
     assert found["file"].channels["acc_1"].samples[1] == pytest.approx(9.80665)
     test_neutral.write(tmp_path / "c.h5")

@@ -52,3 +52,26 @@ def test_what_is_no_sound_file_is_refused(tmp_path, content):
     (tmp_path / "a.wav").write_bytes(content)
     with pytest.raises(ConfigError, match="expected a sound file"):
         read_audio(tmp_path / "a.wav")
+
+
+def broadcast(path, described):
+    """A Broadcast Wave File: a chunk bext of so many bytes before the samples of a file of libsndfile."""
+    content = sound(path).read_bytes()
+    chunk = b"bext" + len(described).to_bytes(4, "little") + described
+    riff = content[:4] + (len(content) - 8 + len(chunk)).to_bytes(4, "little") + content[8:12]
+    path.write_bytes(riff + chunk + content[12:])
+    return path
+
+
+@pytest.mark.parametrize("samples, seconds, step", [(48000 * 3600 * 12 + 24000, 43200.5, 1 / 48000), (0, 43201.0, 1.0)])
+def test_a_broadcast_wave_file_tells_when_it_began(tmp_path, samples, seconds, step):
+    """By its samples since midnight, or to a second by its time of day (EBU Tech 3285)."""
+    described = bytes(320) + b"2026-05-0412:00:01" + samples.to_bytes(8, "little") + bytes(256)
+    found = read_audio(broadcast(tmp_path / "a.wav", described))["1"]
+    midnight = np.datetime64("2026-05-04").astype("datetime64[s]").astype(int)
+    assert found.stamp == (midnight + seconds, step) and len(found.values) == len(SINE)
+
+
+@pytest.mark.parametrize("described", [b"", bytes(602), b"x" * 602])
+def test_a_description_without_a_date_tells_none(tmp_path, described):
+    assert read_audio(broadcast(tmp_path / "a.wav", described))["1"].stamp is None

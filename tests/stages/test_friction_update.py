@@ -104,6 +104,10 @@ def test_strokes_of_a_tribometer_are_read(believed):
     assert product.distance.min() > 2e-3 and (product.temperature == 400.0).all()
     assert len(product.friction) == 6 and product.friction == pytest.approx(0.5, rel=0.01)
     assert product.outside.all(), "millimetres a second are slower than the map"
+    late = {**channels, "load": replace(channels["load"], begin=np.array(1.0))}
+    apart = replace(recording, runs={"strokes": replace(recording.runs["strokes"], channels=late)})
+    with pytest.raises(ConfigError, match="channels of run strokes of one rate, begin and length, found several"):
+        told(believed, apart, slides={"area": "5 mm^2"})
 
 
 @pytest.mark.parametrize("settings, message", [

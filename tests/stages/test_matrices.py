@@ -75,7 +75,7 @@ class Told(Context):
         super().__init__()
         object.__setattr__(self, "notes", [])
 
-    def note(self, message):
+    def remark(self, message):
         self.notes.append(message)
 
 

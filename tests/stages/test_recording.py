@@ -89,9 +89,11 @@ recording:
     assert run.conditions["load"].value.tolist() == [5000.0] and str(run.conditions["load"].unit) == "N"
 
 
-def test_a_run_name_is_taken_once(files):
-    with pytest.raises(ConfigError, match="expected run names that are not taken, found early, late"):
+def test_a_second_file_of_a_run_needs_an_offset_and_names_of_its_own(files):
+    with pytest.raises(ConfigError, match="a.mat: runs.early: expected its offset from a.mat.*state offset: SECONDS"):
         read(files, MATLAB, MATLAB)
+    with pytest.raises(ConfigError, match="runs.early: expected channels whose names the run does not have yet, found"):
+        read(files, MATLAB, {**MATLAB, "offset": "0 s"})
 
 
 def test_sound_and_measurement_files_need_no_columns(tmp_path):
@@ -170,14 +172,18 @@ def told_by(tmp_path, **case):
     """(Recording, what was logged) of a case."""
     told = []
     settings = fill(Settings, case, "case", {"folders": (tmp_path,)})
-    return recording(settings=settings, context=SimpleNamespace(log=told.append)), told
+    return recording(settings=settings, context=SimpleNamespace(log=lambda _: None, remark=told.append)), told
 
 
 def test_channels_that_the_file_says_too_little_of_are_left_out_aloud(tmp_path):
     mdf(tmp_path / "drag.mf4")
     found, told = told_by(tmp_path, files=[{"kind": "mdf", "file": "drag.mf4"}])
-    assert list(found.runs["drag"].channels) == ["pad", "line", "disc"]
-    assert any("disc speed left out: the file states no even sampling" in line for line in told)
+    assert list(found.runs["drag"].channels) == ["pad", "line", "disc", "disc_speed"] and len(told) == 1
+    assert "disc_speed: time stamps are 0.09 s apart" in told[0] and found.remarks.tolist() == told
+    tdms(tmp_path / "b.tdms", unit_string="")
+    sound(tmp_path / "a.wav")
+    with pytest.raises(ConfigError, match="expected a unit in the file or in the case"):
+        told_by(tmp_path, files=[{"kind": "tdms", "file": "b.tdms"}])
 
 
 def test_good_channels_stay_usable(tmp_path):
@@ -242,3 +248,90 @@ def test_times_are_in_the_unit_that_the_file_says(tmp_path, head):
     (tmp_path / "b.csv").write_text(head + "".join(f"{k},{k},1\n" for k in range(5)))
     table = {**TABLE, "sample_rate": None, "time": head.split(",")[0]}
     assert float(read(tmp_path, table).runs["t"].channels["x"].rate) == pytest.approx(1000)
+
+
+def bump(time):
+    """A knock at 2.5 s of the clock of the sound."""
+    return np.exp(-((time - 2.5) / 0.03) ** 2)
+
+
+def stop(folder):
+    """One stop by three recorders: sound that hears a knock, a text table and a TDMS file that began later."""
+    from nptdms import ChannelObject, TdmsWriter
+
+    sound(folder / "q.wav", 0.5 * bump(np.arange(8 * 4000) / 4000), rate=4000)
+    late = np.arange(500) / 100 + 1.0
+    np.savetxt(folder / "p.csv", np.column_stack([late - 1.0, late]), delimiter=",", header="t,p", comments="")
+    with TdmsWriter(str(folder / "k.tdms")) as writer:
+        time = 1.75 + np.arange(5000) / 1000
+        writer.write_segment([ChannelObject("g", name, values, properties={"wf_increment": 1e-3, "unit_string": unit})
+                              for name, values, unit in (("knock", 3 * bump(time), "V"), ("force", time, "N"))])
+    return ({"kind": "audio", "file": "q.wav", "columns": {"mic": {"column": "1", "unit": "Pa", "factor": 2}},
+             "runs": {"stop": {"begin": "1.5 s", "end": "4 s"}, "rest": {"begin": "4 s"}}},
+            {"kind": "table", "file": "p.csv", "time": "t", "offset": "1 s", "offset_std": "5 ms", "columns": {
+                "line": {"column": "p", "unit": "bar", "measures": "pressure"}},
+             "runs": {"stop": {"begin": "1.5 s", "end": "4 s", "conditions": {"speed": {"value": 9, "unit": "m/s"}}}}},
+            {"kind": "tdms", "file": "k.tdms", "common": {"channel": "g_knock", "other": "mic"}, "runs": {"stop": {}}})
+
+
+def test_several_files_make_one_run(tmp_path):
+    """Every sample lies at its instant on the clock of the first file, where the run is cut."""
+    found, told = told_by(tmp_path, files=stop(tmp_path))
+    run = found.runs["stop"]
+    assert list(run.channels) == ["mic", "line", "g_knock", "g_force"] and list(found.runs) == ["stop", "rest"]
+    line, force = run.channels["line"], run.channels["g_force"]
+    assert float(line.begin) == pytest.approx(1.5) and line.samples[0] == pytest.approx(1.5e5)
+    assert len(line.samples) == 250
+    clock = run.clocks["k_tdms"]
+    assert float(clock.offset) == pytest.approx(1.75, abs=3 * float(clock.offset_std)) and 0 < clock.offset_std < 1e-3
+    assert float(force.begin) - force.samples[0] == pytest.approx(0.0, abs=1e-3)
+    assert float(run.clocks["p_csv"].offset_std) == 0.005 and list(run.conditions) == ["speed"]
+    assert found.remarks.tolist() == told and len(told) == 2 and "1 s +- 0.005 s are added to its times" in told[0]
+    assert not found.runs["rest"].clocks
+
+
+def test_files_without_a_common_clock_are_asked_for_an_offset(tmp_path):
+    first, second, third = stop(tmp_path)
+    for file in ({**second, "offset": None}, {**third, "common": None}):
+        with pytest.raises(ConfigError, match="runs.stop: expected its offset from q.wav.*no time stamp in q.wav nor"):
+            read(tmp_path, first, file)
+
+
+def test_start_times_of_several_files_place_them(tmp_path):
+    """An MDF file that began 2.5 s before a TDMS file, both of which tell when."""
+    from datetime import UTC, datetime
+
+    import asammdf
+
+    time = np.arange(6000) / 1000
+    with asammdf.MDF(version="4.10") as file:
+        file.start_time = datetime(2026, 5, 4, 12, 0, 0, 250000, UTC)
+        file.append([asammdf.Signal(time, time, unit="bar", name="line")])
+        file.save(str(tmp_path / "a.mf4"))
+    tdms(tmp_path / "b.tdms", wf_start_time=np.datetime64("2026-05-04T12:00:02.750"))
+    found, told = told_by(tmp_path, files=[{"kind": "mdf", "file": "a.mf4", "runs": {"stop": {}}},
+                                           {"kind": "tdms", "file": "b.tdms", "runs": {"stop": {}}}])
+    run = found.runs["stop"]
+    assert float(run.channels["bench_pad"].begin) == pytest.approx(2.5 + 0.5) and float(run.channels["line"].begin) == 0
+    assert "by its time stamp and that of a.mf4" in told[-1] and 0 < float(run.clocks["b_tdms"].offset_std) < 1e-3
+
+
+def test_files_of_whole_runs_join_by_an_offset(files):
+    """A universal file and plain HDF5: series of conditions move with the channels."""
+    from h5py import File
+
+    sound(files / "q.wav", rate=1000)
+    audio = {"kind": "audio", "file": "q.wav", "columns": {"mic": {"column": "1", "unit": "Pa"}},
+             "runs": {"hammer": {}, "first": {}}}
+    with File(files / "c.h5", "a") as h5:
+        node = h5.create_dataset("runs/first/conditions/course", data=[1.0, 2.0])
+        node.attrs.update(units="N", sample_rate=10.0)
+    alone, moved = (read(files, *more, {**UFF, **shift}, {**NEUTRAL, **shift}).runs
+                    for more, shift in (((), {}), ((audio,), {"offset": "2 s"})))
+    for name in ("hammer", "first"):
+        assert "mic" in moved[name].channels and len(moved[name].clocks) == 1
+        for key, one in alone[name].channels.items():
+            assert float(moved[name].channels[key].begin) == float(one.begin) + 2
+    assert moved["first"].conditions["course"].time.tolist() == pytest.approx([2.0, 2.1])
+    with pytest.raises(ConfigError, match="d.uff: runs.hammer: expected its offset from q.wav"):
+        read(files, audio, UFF)

@@ -22,12 +22,11 @@ class Work:
 
 @dataclass(frozen=True)
 class Made:
-    """The product of a stage, what it told and noted, and the seconds that it took by the clock."""
+    """The product of a stage, what it told, and the seconds that it took by the clock."""
 
     output: object
     told: tuple
     wall: float
-    noted: tuple = ()
 
 
 class LongTasks:
@@ -68,10 +67,8 @@ class LongTasks:
             done, cpu = future.result()
         except BrokenProcessPool:
             raise killed() from None
-        for line in done.told:
-            self._context.log(line)
-        for line in done.noted:
-            self._context.note(line)
+        for hear, line in done.told:
+            getattr(self._context, hear)(line)
         self._run.publish(state.stage, done.output, current, done.wall, cpu)
         self._report(state, done.wall)
 
@@ -81,17 +78,16 @@ class _Telling(Context):
     """Keeps what it is told."""
 
     lines: list = field(default_factory=list)
-    notes: list = field(default_factory=list)
 
     def log(self, message):
-        self.lines.append(message)
+        self.lines.append(("log", message))
 
-    def note(self, message):
-        self.notes.append(message)
+    def remark(self, message):
+        self.lines.append(("remark", message))
 
 
 def made(work: Work) -> Made:
     """The Work done, in whatever process this is."""
     context, begin = _Telling(work.solver, work.case), time.perf_counter()
     output = work.stage(**work.arguments, context=context)
-    return Made(output, tuple(context.lines), time.perf_counter() - begin, tuple(context.notes))
+    return Made(output, tuple(context.lines), time.perf_counter() - begin)

@@ -22,8 +22,8 @@ class Conditions:
     def mean(self, name, start, duration):
         """Mean of a condition over a stretch of time in s; None where it is not known."""
         for samples, rate, begin in self.measured.get(name, ()):
-            first, last = (int((t - begin) * rate) for t in (start, start + duration))
-            inside = samples[max(first, 0):max(last, first + 1)]
+            first, last = (int(np.floor((t - begin) * rate)) for t in (start, start + duration))
+            inside = samples[max(first, 0):max(last, first + 1, 0)]
             if np.isfinite(inside).any():
                 return float(np.nanmean(inside))
         return float(np.interp(start + duration / 2, *self.stated[name])) if name in self.stated else None

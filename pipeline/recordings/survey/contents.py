@@ -10,6 +10,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
 from pipeline.recordings.apart import runs, waveforms
 from pipeline.recordings.columns import table
+from pipeline.recordings.runs.even_times import on_even_times
 from pipeline.recordings.samples import EVEN, GAP, OFF_GRID, with_gaps
 from pipeline.recordings.survey.meanings import meaning, split_unit
 from pipeline.recordings.waveform import free_name, plain_name
@@ -92,8 +93,9 @@ def _of_runs(path, kind):
 
 
 def _of_waveforms(path, kind):
-    found = waveforms(kind, path)
-    rated = {name: w for name, w in found.items() if w.rate}
+    found = {name: w for name, w in waveforms(kind, path).items() if len(w.values)}
+    rated = {name: on_even_times(w, None, f"{path}: {name}") for name, w in found.items()
+             if w.rate or (w.times is not None and len(w.times) > 1)}
     if not rated:
         raise ConfigError(path, "channels with a sampling rate", "none that the file states")
     run, signals = _run_name(path), {}
@@ -104,6 +106,7 @@ def _of_waveforms(path, kind):
                               {run: np.asarray(w.values, float)})
     rates = {s.rate for s in signals.values()}
     remarks = [f"channels of several rates: {', '.join(f'{r:g} Hz' for r in sorted(rates))}"] if len(rates) > 1 else []
+    remarks += [f"{name}: {w.remark}" for name, w in rated.items() if w.remark]
     return Contents(path, kind, {}, signals, {run: {}}, True, remarks)
 
 

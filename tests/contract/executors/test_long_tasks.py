@@ -41,6 +41,8 @@ class Beside(Context):
     def log(self, message):
         self.told.append(message)
 
+    remark = log
+
 
 @pytest.fixture
 def job(tmp_path):
@@ -66,13 +68,13 @@ def test_what_does_not_read_it_goes_on_meanwhile(job):
     assert told(job("beside"), context) == [(name, False) for name in CHAINS["beside"]]
 
 
-def test_what_it_notes_is_kept_apart_from_what_it_tells():
+def test_what_it_remarks_is_told_as_such():
     def stage(context):
         context.log("an aside")
-        context.note("k.mtx is taken as it stands")
+        context.remark("k.mtx is taken as it stands")
 
     done = made(Work(stage, {}, "superlu", Context().case))
-    assert done.told == ("an aside",) and done.noted == ("k.mtx is taken as it stands",)
+    assert done.told == (("log", "an aside"), ("remark", "k.mtx is taken as it stands"))
 
 
 def test_what_reads_it_waits_and_so_do_variants(job):

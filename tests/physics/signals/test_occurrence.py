@@ -45,3 +45,9 @@ def test_what_was_measured_goes_before_what_is_stated():
     np.testing.assert_allclose(told.at("speed", np.array([1.0, 3.0])), [np.nan, 6.0])
     assert told.mean("speed", 3.0, 1.0) == 6.0 and told.mean("speed", 20.0, 1.0) is None
     assert told.mean("humidity", 0.0, 1.0) is None and np.isnan(told.at("humidity", np.zeros(2))).all()
+
+
+def test_nothing_is_known_before_a_record_begins():
+    told = Conditions({"pressure": [(np.full(600, 2e6), 100.0, 3.0)]}, {})
+    assert told.mean("pressure", 1.0, 0.5) is told.mean("pressure", 2.6, 0.3) is told.mean("pressure", 9.5, 1.0) is None
+    assert told.mean("pressure", 2.5, 1.0) == told.mean("pressure", 4.0, 1.0) == 2e6

@@ -21,7 +21,7 @@ def chapter(product, look):
     files = ", ".join(str(line).split(" ")[0] for line in product.source)
     return Chapter("recording", "What the bench recorded", f"{plural(len(product.runs), 'run')} from {files}.",
                    _noise(product) if shown else "",
-                   tuple(figures), (*_channels(product), *_others(product)))
+                   tuple(figures), (*_channels(product), *_others(product), *_told(product)))
 
 
 def _noise(product):
@@ -56,6 +56,12 @@ def _channels(product):
                          percent(lost / count, 2)))
     head = ("run", "channel", "measures", "role", "largest", "sampling rate", "length", "missing")
     return (Table(head, tuple(rows), "Channels", numeric=(4, 5, 6, 7), folded=len(rows) > 12),) if rows else ()
+
+
+def _told(product):
+    """The table of what was left out, taken for granted or made of what the files hold, if anything."""
+    rows = tuple((str(line),) for line in product.remarks)
+    return (Table(("remark",), rows, "Remarks on the files", wide=(0,), folded=len(rows) > 12),) if rows else ()
 
 
 def _others(product):

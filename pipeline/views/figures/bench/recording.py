@@ -24,7 +24,8 @@ def channels(run, dpi):
         grid = figure.subplots(len(shown), sharex=True, squeeze=False)[:, 0]
         for axes, (name, channel), colour in zip(grid, shown, COLOURS, strict=False):
             _channel(axes, name, channel, colour)
-        grid[-1].set_xlabel("time / s")
+        ends = [(float(c.begin), float(c.begin) + max(len(c.samples) - 1, 1) / float(c.rate)) for _, c in shown]
+        grid[-1].set(xlabel="time / s", xlim=(min(b for b, _ in ends), max(e for _, e in ends)))
         return png(figure, dpi)
 
 
@@ -53,5 +54,5 @@ def _channel(axes, name, channel, colour):
     for first, last in channel.missing:
         axes.axvspan(begin + first / rate, begin + last / rate, color=FAINT, alpha=0.4, lw=0)
     label = name if unit == "1" else f"{name} / {unit}"
-    axes.set(ylabel=label, xlim=(begin, begin + max(len(channel.samples) - 1, 1) / rate))
+    axes.set_ylabel(label)
     axes.yaxis.label.set_size(min(axes.yaxis.label.get_size(), _LETTERS / len(label)))

@@ -35,6 +35,20 @@ def test_the_picture_shows_samples_and_gaps():
     assert recording.channels(run(2 * whole), 60) != first
 
 
+def test_the_picture_spans_every_channel(monkeypatch):
+    """A channel that begins late leaves the others whole."""
+    drawn = []
+    monkeypatch.setattr(recording, "png", lambda figure, dpi: drawn.append(figure.axes[0].get_xlim()))
+    early, late = (channel(np.ones(200), "Pa", "pressure", 100.0, begin, "a") for begin in (0.0, 3.0))
+    recording.channels(Run(description="", repeat_of="", channels={"mic": early, "line": late}), 60)
+    assert drawn == [(0.0, 4.99)]
+
+
+def test_the_chapter_tells_the_remarks():
+    told = Recording(source=["a.mat 0123"], remarks=["a.mat: x: so"], runs={"first": run(np.ones(9))})
+    assert chapter(told, Look()).tables[-1].rows == (("a.mat: x: so",),)
+
+
 def test_a_channel_in_a_file_looks_as_in_memory(tmp_path):
     values = np.sin(np.arange(300_000) / 5000) * np.linspace(-2, 1, 300_000)
     store.write(Recording(source=[], runs={"long": run(values)}), tmp_path / "recording.h5", {})

@@ -1,0 +1,81 @@
+"""Channels by what their files say: which are made, left out or asked for, and what is told."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.recordings.runs.imported import Imported
+from pipeline.recordings.runs.tracks import channels_of
+from stages.recording import Track, Waveforms
+from tests.recordings.files_of_others import RATE, SINE, mdf, sound, tdms
+
+
+def made(path, kind, **more):
+    """(channels, stamp, what was told) of a file under these settings."""
+    told = []
+    settings = Waveforms(kind=kind, file=path, **more)
+    return *channels_of(settings, Imported(False, told.append), Track), told
+
+
+def test_uneven_channels_are_put_on_a_grid_and_said_together(tmp_path):
+    channels, stamp, told = made(mdf(tmp_path / "a.mf4"), "mdf")
+    assert list(channels) == ["pad", "line", "disc", "disc_speed"] and stamp is not None
+    assert len(told) == 1 and "a.mf4: disc_speed: time stamps are" in told[0]
+    speed = channels["disc_speed"]
+    instants = np.arange(len(speed.samples)) / float(speed.rate)
+    np.testing.assert_allclose(speed.samples, 10 - 100 / 9 * np.sqrt(instants), atol=1.2)
+
+
+def test_texts_are_left_out_aloud(tmp_path):
+    channels, _, told = made(tdms(tmp_path / "a.tdms"), "tdms")
+    assert list(channels) == ["bench_pad"] and told == [f"{tmp_path / 'a.tdms'}: bench/note left out: it holds no"
+                                                        " numbers"]
+    with pytest.raises(ConfigError, match="note: expected samples, found none: it holds no numbers"):
+        made(tmp_path / "a.tdms", "tdms", columns={"note": Track(column="bench/note", unit="V")})
+
+
+def test_a_channel_of_times_is_named_in_tdms_files_alone(tmp_path):
+    from nptdms import ChannelObject, TdmsWriter
+
+    with TdmsWriter(str(tmp_path / "a.tdms")) as writer:
+        writer.write_segment([ChannelObject("log", name, values, properties={"unit_string": unit})
+                              for name, values, unit in (("X0", np.arange(9) / 8, ""), ("line", SINE[:9], "bar"))])
+    channels, *_ = made(tmp_path / "a.tdms", "tdms", time="log/X0")
+    assert {name: float(c.rate) for name, c in channels.items()} == {"log_line": 8.0}
+    with pytest.raises(ConfigError, match="time: expected no channel of times"):
+        made(mdf(tmp_path / "a.mf4"), "mdf", time="disc")
+
+
+def test_a_column_may_make_several_channels(tmp_path):
+    columns = {name: Track(column="1", unit=unit) for name, unit in (("mic", "Pa"), ("pad", "g"))}
+    channels, *_ = made(sound(tmp_path / "a.wav", rate=int(RATE)), "audio", columns=columns)
+    assert [str(c.unit) for c in channels.values()] == ["Pa", "m/s^2"]
+    with pytest.raises(ConfigError, match="pad.column: expected one of 1, 2, found '3'"):
+        made(tmp_path / "a.wav", "audio", columns={"pad": Track(column="3")})
+
+
+def test_a_calibrator_of_another_channel_is_refused(tmp_path):
+    sound(tmp_path / "a.wav")
+    calibrator = SimpleNamespace(file=tmp_path / "a.wav", column="9", level=94.0)
+    with pytest.raises(ConfigError, match="calibrator.column: expected one of 1, 2, found '9'"):
+        made(tmp_path / "a.wav", "audio", columns={"mic": Track.model_construct(
+            column="1", unit=None, measures=None, factor=1.0, role="response", place="", direction=(),
+            calibrator=calibrator)})
+
+
+def test_long_channels_of_a_bus_are_those_of_memory(tmp_path, monkeypatch):
+    """Their time stamps, which they have in common, lie in a file without a name while they are read."""
+    import asammdf
+
+    monkeypatch.setattr("pipeline.contract.mapped.LARGE", 1 << 10)
+    times = 1.0 + np.arange(2000) / 100 + 1e-3 * np.sin(np.arange(2000))
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(np.sin(times), times, name=name, unit="bar") for name in ("front", "rear")])
+        path = file.save(str(tmp_path / "a.mf4"))
+    channels, _, told = made(path, "mdf")
+    assert len(told) == 1 and "front, rear: time stamps are" in told[0]
+    for one in channels.values():
+        instants = float(one.begin) + np.arange(len(one.samples)) / float(one.rate)
+        np.testing.assert_allclose(one.samples, 1e5 * np.sin(instants), atol=20.0)
