@@ -14,7 +14,7 @@ from pipeline.recordings.tables.layout import spelt
 _UNITS, _NEAR = ("s", "ms", "us", "min"), 0.01
 #: what is sampled faster than so many Hz, always
 _FAST, _SLOW = frozenset({"acceleration", "sound_pressure"}), 50.0
-_BRACKETS = re.compile(r".*[\[(]\s*([^\])]+?)\s*[\])]\s*")
+_BRACKETS = re.compile(r".*[\[(]\s*([^\])]*[^\W\d_][^\])]*?)\s*[\])]\s*")
 
 
 def sampled(values, time, file, head, where, tell, measures=()):

@@ -34,6 +34,8 @@ def test_units_of_times(name, factor, head, stated, told):
 def test_a_unit_of_times_that_is_none_is_asked_for():
     with pytest.raises(ConfigError, match=r"here: time_unit: .* found 'rel' at t \[rel\]; state it: time_unit: s"):
         read(TIME, "t [rel]")
+    for name in ("data(:,1)", "X_Value (2)", "s(3).t"):
+        assert time_unit(name, None, NO, TIME, "here") == ("s", True)
     assert time_unit("t [rel]", "ms", NO, TIME, "here") == ("ms", False)
 
 
