@@ -11,13 +11,15 @@ from pipeline.contract.fingerprint import digest
 from pipeline.contract.units import in_si
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
-from pipeline.recordings.columns import read_table, table
 from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
 from pipeline.recordings.runs.imported import Imported
 from pipeline.recordings.runs.tracks import channels_of
-from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, stretch
-from pipeline.recordings.survey.meanings import split_unit
+from pipeline.recordings.samples import channel, stretch
+from pipeline.recordings.tables.layout import Form
+from pipeline.recordings.tables.matrices import stated_rates
+from pipeline.recordings.tables.sampling import sampled
+from pipeline.recordings.tables.text import TextTable, read_table, text_table
 from pipeline.recordings.waveform import plain_name
 from pipeline.validation.published_facts import load
 
@@ -25,7 +27,7 @@ from pipeline.validation.published_facts import load
 class Column(Section):
     """One column of a file and its meaning."""
 
-    column: str = option(..., "its name in the file")
+    column: str = option(..., "its name in the file; of a matrix in MATLAB one of its columns: data(:,2)")
     unit: str = option(..., "unit of its numbers, such as mm, kN, deg or, of an acceleration, g")
     measures: str = option(..., "displacement, velocity, acceleration, angle, force, torque, pressure, voltage, ...")
     factor: float = option(1.0, "factor on its numbers: the gain of a sensor, or -1 to turn a sign")
@@ -107,17 +109,15 @@ class Waveforms(_Clocked):
 
 
 class Matlab(_Columns):
-    """A MATLAB file of vectors."""
+    """A MATLAB file of vectors and matrices."""
 
     kind: Literal["matlab"] = "matlab"
 
 
-class Table(_Columns):
+class Table(Form, _Columns):
     """A text table."""
 
     kind: Literal["table"] = "table"
-    delimiter: str | None = option(None, "what separates columns; none = tab, semicolon or comma, as the head shows")
-    skip: int = option(0, "lines before the head", ge=0)
 
 
 class Uff(_Clocked):
@@ -144,13 +144,11 @@ class FrictionColumn(Section):
     unit: str = option("1", "unit of its numbers, such as %, MPa, m/s, km or degC")
 
 
-class FrictionTable(Section):
+class FrictionTable(Form):
     """A text table of measured coefficients of friction: one run."""
 
     kind: Literal["friction"] = "friction"
     file: InputFile = option(..., "the file; measured:NAME for a public one")
-    delimiter: str | None = option(None, "what separates columns; none = tab, semicolon or comma, as the head shows")
-    skip: int = option(0, "lines before the head", ge=0)
     run: str = option(..., "name of the run")
     description: str = option("", "what was done")
     columns: dict[str, FrictionColumn] = option(
@@ -214,14 +212,22 @@ def recording(settings: Settings, context: Context) -> Recording:
     return Recording(source=source, remarks=imported.remarks, runs=imported.runs)
 
 
-def _from_columns(file, columns, units, imported):
-    """Runs of a file of columns, {name: values} and what it says of their {name: unit}."""
-    where, found = f"{file.file}", {}
-    _refuse_unknown(file, columns, f"{where}: ")
+def _from_columns(file, table, imported):
+    """Runs of a file of columns, a TextTable."""
+    where, found, columns = f"{file.file}", {}, table.columns
+    table.used({f"{where}: {name}.column": w.column for name, w in file.columns.items()}
+               | ({} if file.time is None else {f"{where}: time": file.time}))
+    if file.time is None and file.sample_rate is None and table.rate is None:
+        raise ConfigError(f"{where}: time", "a sampling rate or a column of times", "neither", "add sample_rate or time"
+                          + stated_rates(columns))
+    for remark in table.remarks:
+        imported.tell(f"{where}: {remark}")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
-        values, rate, begin = _sampled(file, values, part, units, f"{where}: time")
+        values, rate, begin = sampled(values, part.get(file.time), file,
+                                      (table.units.get(file.time, ""), table.rate, table.begin), f"{where}: time",
+                                      imported.tell, [w.measures for w in file.columns.values()])
         whole = imported.channels({
             name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
                           place=w.place, direction=w.direction) for name, w in file.columns.items()})
@@ -253,24 +259,6 @@ def _refuse_unknown(file, columns, where):
             raise ConfigError(f"{where}{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
 
 
-def _sampled(file, values, columns, units, where):
-    """(columns on an even grid, rate, begin) from the sampling rate, the column of times, or both."""
-    if file.time is not None and file.time not in columns:
-        raise ConfigError(where, f"one of {', '.join(columns)}", repr(file.time))
-    if file.time is None and file.sample_rate is None:
-        raise ConfigError(where, "a sampling rate or a column of times", "neither", "add sample_rate or time")
-    if file.time is None:
-        return values, file.sample_rate, 0.0
-    unit = file.time_unit or units.get(file.time) or split_unit(file.time)[1] or "s"
-    time = np.asarray(in_si(columns[file.time], unit, f"{where}_unit")[0])
-    if file.resample is not None:
-        return *interpolated(values, time, file.resample, where), float(time[0])
-    if file.sample_rate is None:
-        return values, *even_rate(time, where)
-    spread, begin = on_grid(values, time, file.sample_rate, where)
-    return spread, file.sample_rate, begin
-
-
 def _from_uff(file):
     found = runs("uff", file.file, units=file.units)["file"]
     return {file.run: _run(found.channels, file, f"{file.file}", frf=found.frf, modes=found.modes)}
@@ -290,10 +278,11 @@ def _on_clock(file, found, imported):
 
 def _from_friction(file):
     """The run of a table of measured friction."""
-    where, columns = f"{file.file}", read_table(file.file, file.delimiter, file.skip)
+    where = f"{file.file}"
+    columns = read_table(file.file, file, {f"{where}: columns.{name}.column": wanted.column
+                                           for name, wanted in file.columns.items()})
     given = {name: (np.full(len(next(iter(columns.values()))), stated.value), stated.unit, f"{where}: values.{name}")
              for name, stated in file.values.items()}
-    _refuse_unknown(file, columns, f"{where}: columns.")
     given |= {name: (columns[wanted.column], wanted.unit, f"{where}: columns.{name}")
               for name, wanted in file.columns.items()}
     return {file.run: Run(description=file.description, repeat_of="",
@@ -308,9 +297,9 @@ def _from_facts(file):
 
 
 #: kind of file -> its runs by name
-READ = {"matlab": lambda file, imported: _from_columns(file, {
-            name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, {}, imported),
-        "table": lambda file, imported: _from_columns(file, *table(file.file, file.delimiter, file.skip), imported),
+READ = {"matlab": lambda file, imported: _from_columns(file, TextTable.of(
+            waveforms("matlab", file.file), [w.column for w in file.columns.values()]), imported),
+        "table": lambda file, imported: _from_columns(file, text_table(file.file, file), imported),
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
         "uff": lambda file, imported: _on_clock(file, _from_uff(file), imported),
         "friction": lambda file, _: _from_friction(file), "lines": lambda file, _: _from_facts(file),

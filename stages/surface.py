@@ -109,7 +109,8 @@ def _measured(body, choice, settings):
     for place in places:
         patch = window(shape, spacing, settings.patch_length, place=place)
         refuse_holes(scan.missing[tuple(slice(first, first + count) for first, count, _ in patch)], f"{where}: patch")
-    return {"height": np.array(height), "source": choice.file.name, "outliers": scan.outliers,
+    source = choice.file.name + f" ({scan.told})" * bool(scan.told)
+    return {"height": np.array(height), "source": source, "outliers": scan.outliers,
             "filled": scan.missing.mean()}
 
 

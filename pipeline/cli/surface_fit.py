@@ -10,7 +10,8 @@ def with_fit(command):
     config.required = False
     command.params.append(click.Option(
         ["--fit", "scan"], metavar="SCAN", help="print the section 'surface' of a generator whose surfaces match SCAN,"
-        " and how well; --set patch_length=..., shortest_wavelength, body, transposed, height_unit, seeds; no CONFIG"))
+        " and how well; --set patch_length=..., shortest_wavelength, body, transposed, channel, height_unit,"
+        " pixel_size, seeds; no CONFIG"))
 
     def callback(config, overrides, scan, **rest):
         if (config is None) == (scan is None):

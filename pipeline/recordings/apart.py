@@ -11,7 +11,7 @@ from pipeline.contract.mapped import blocks, map_of, mapped, opened
 from pipeline.contract.received.process import answered
 from pipeline.products import Recording, Run
 from pipeline.recordings.audio import read_audio
-from pipeline.recordings.columns import read_columns, read_matlab
+from pipeline.recordings.columns import matlab_waveforms, read_columns
 from pipeline.recordings.mdf import read_mdf
 from pipeline.recordings.neutral import read_neutral
 from pipeline.recordings.tdms import read_tdms
@@ -100,7 +100,8 @@ def _universal(path, _, units=None):
 
 
 #: kind of file -> (reader of a path and the folder for what is long, what leaves its answer)
-_READERS = {"matlab": (_vectors(read_matlab), _leave_columns), "columns": (_vectors(read_columns), _leave_columns),
+_READERS = {"matlab": (lambda path, _: matlab_waveforms(path), _leave_columns),
+            "columns": (_vectors(read_columns), _leave_columns),
             "audio": (read_audio, _leave_columns), "tdms": (read_tdms, _leave_columns),
             "mdf": (read_mdf, _leave_columns), "hdf5": (lambda path, _: read_neutral(path), _leave_runs),
             "uff": (_universal, _leave_runs)}

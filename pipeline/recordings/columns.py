@@ -1,7 +1,6 @@
-"""Files of named columns: MATLAB, plain HDF5 and text tables."""
+"""Files of named columns: MATLAB and plain HDF5; text tables are written here, and read in ``tables``."""
 
 import csv
-import re
 import struct
 from io import BytesIO
 from pathlib import Path
@@ -10,15 +9,9 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.hdf5 import flaw, flaw_of, refuse_outside
-
-#: text in a table that stands for a missing sample
-_NUMBER = re.compile(r"\s*[-+]?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|inf|Inf|INF)\s*")
-#: a unit in its own row; a number with a decimal comma; what ends the head of a LabVIEW measurement, and where it is
-#: sought
-_UNIT = re.compile(r"[\[(]([^\])]*)[\])]")
-_COMMA = re.compile(r"\s*[-+]?\d+,\d+([eE][-+]?\d+)?\s*")
-_LABVIEW, _HEAD = "***End_of_Header***", 100
-MISSING = frozenset({"", "nan", "na", "n/a", "none", "null", "-"})
+from pipeline.recordings.tables.matrices import time_axes, vectors
+from pipeline.recordings.tables.text import read_table
+from pipeline.recordings.waveform import Waveform
 
 
 def read_columns(path):
@@ -32,13 +25,14 @@ def read_columns(path):
         return read_matlab(path)
     if kind not in (".h5", ".hdf5"):
         return read_table(path)
-    return _vectors(_read_hdf5(path, "an HDF5 file"), path)
+    return vectors(_read_hdf5(path, "an HDF5 file"), path, base=0)
 
 
 def read_matlab(path):
     """Name -> 1-D array of every numeric variable of a MATLAB file, version 4 to 7.3; vectors lose their second axis.
 
-    Cells of a cell array are x{1}, x{2}, ..., fields of a structure s.name, of an array of structures s(1).name.
+    Columns of a matrix are x(:,1), x(:,2), ..., its rows x(1,:), ... where these are longer; cells of a cell array
+    x{1}, x{2}, ..., fields of a structure s.name, of an array of structures s(1).name.
     Raises ConfigError for a file that is not a MATLAB file, is truncated or holds no numbers.
     """
     path = Path(path)
@@ -47,8 +41,16 @@ def read_matlab(path):
     except OSError as error:
         raise ConfigError(path, "a readable MATLAB file", str(error)) from None
     if content.startswith(b"MATLAB 7.3 MAT-file"):
-        return _vectors(_read_hdf5(path, "a MATLAB file of version 7.3"), path)
-    return _vectors(_decoded(content, path), path)
+        found = _read_hdf5(path, "a MATLAB file of version 7.3")
+        return vectors({name: np.transpose(value) for name, value in found.items()}, path)
+    return vectors(_decoded(content, path), path)
+
+
+def matlab_waveforms(path):
+    """Name -> Waveform of what ``read_matlab`` reads, with the rate and begin that structures of Testlab state."""
+    columns = read_matlab(path)
+    axes = time_axes(columns)
+    return {name: Waveform(values, "", *axes.get(name, (None, 0.0))) for name, values in columns.items()}
 
 
 def _decoded(content, path):
@@ -70,6 +72,8 @@ def _decoded(content, path):
 
 def _leaves(name, value):
     """[(name, array)] of the parts of a variable as loadmat returns it: cells and structures are opened."""
+    if hasattr(value, "classname") or (value.dtype.names and set(value.dtype.names) == {"s0", "s1", "s2", "arr"}):
+        return [(name, np.empty(0, "U1"))]     # a timetable, a table or another object: loadmat cannot open it
     if value.dtype.names:
         count = value.size
         return [leaf for k, item in enumerate(value.ravel()) for field in value.dtype.names
@@ -85,16 +89,6 @@ def _whole(content, byte_order):
     while end + 8 <= len(content):
         end += 8 + struct.unpack_from(f"{byte_order}I", content, end + 4)[0]
     return end == len(content)
-
-
-def _vectors(variables, path):
-    """Those of the ``variables`` that are vectors of numbers."""
-    numeric = {k: np.asarray(v) for k, v in variables.items() if np.asarray(v).dtype.kind in "fiub"}
-    flat = {k: v for k, v in numeric.items() if v.ndim < 2 or (v.ndim == 2 and 1 in v.shape)}
-    columns = {k: v.astype(float).ravel() for k, v in flat.items()}
-    if not columns:
-        raise ConfigError(path, "a vector of numbers", f"{', '.join(variables) or 'no variables'}")
-    return columns
 
 
 def _read_hdf5(path, expected):
@@ -117,6 +111,8 @@ def _nodes(name, node):
             _refuse(flaw(node, key), node)
         return [leaf for key, inner in node.items() for leaf in _nodes(f"{name}.{key}", inner)]
     _refuse(flaw_of(node), node)
+    if node.attrs.get("MATLAB_class") == b"char" or "MATLAB_empty" in node.attrs:
+        return []
     if h5py.check_ref_dtype(node.dtype):
         cells = enumerate(node[()].T.ravel(order="F"))
         return [leaf for k, cell in cells if cell for leaf in _nodes(f"{name}{{{k + 1}}}", node.file[cell])]
@@ -126,81 +122,6 @@ def _nodes(name, node):
 def _refuse(told, node):
     if told:
         raise ConfigError(f"{node.file.filename}: {node.name or 'a cell'}", "data of this file", told)
-
-
-def read_table(path, delimiter=None, skip=0):
-    """Column name -> 1-D array of a text table, NaN where a sample is missing; see ``table``."""
-    return table(path, delimiter, skip)[0]
-
-
-def table(path, delimiter=None, skip=0):
-    """({column: 1-D array, NaN where a sample is missing}, {column: unit of a row in brackets}) of a text table.
-
-    ``delimiter`` None: the first of tab, semicolon and comma that the header contains, else white space; ``skip``:
-    lines before the header, those of a LabVIEW measurement left out by themselves. Decimals may follow a comma where no
-    comma separates columns; text is UTF-8, UTF-16 or Windows-1252. Raises ConfigError with the line of a value that is
-    not a number.
-    """
-    path = Path(path)
-    content = _text(path)
-    lines = content.splitlines()
-    skip = max([skip, *(k + 1 for k, line in enumerate(lines[:_HEAD]) if line.startswith(_LABVIEW))])
-    lines = lines[skip:]
-    if len(lines) > 2 and not content.endswith(("\n", "\r")) and _shorter(lines):
-        raise ConfigError(f"{path}:{skip + len(lines)}", "a last number as long as those above it, or a line break"
-                          " behind it", repr(lines[-1][-20:]), "the file is cut off: copy it again")
-    if len(lines) < 2:
-        raise ConfigError(path, "a header and at least one line of numbers", f"{len(lines)} lines")
-    lines[0] = re.sub(r"^[#%]\s*", "", lines[0])
-    mark = delimiter or next((d for d in "\t;," if d in lines[0]), ",")
-    if delimiter is None and mark not in lines[0] and len(lines[0].split()) == len(lines[1].split()) > 1:
-        mark, lines = " ", [" ".join(line.split()) for line in lines]
-    try:
-        head, *rows = csv.reader(lines, delimiter=mark)
-    except (csv.Error, TypeError) as error:
-        raise ConfigError(path, f"a text table whose columns {mark!r} separates", str(error)) from None
-    names = [name.strip() for name in head]
-    if len(set(names)) < len(names):
-        raise ConfigError(f"{path}:{skip + 1}", "each column name once", ", ".join(names))
-    units = [_UNIT.fullmatch(text.strip()) for text in rows[0]]
-    first = 1 if units and all(units) else 0
-    while first < len(rows) - 1 and not any(text.strip() for text in rows[first]):
-        first += 1
-    if not names or first >= len(rows):
-        raise ConfigError(path, "a head and rows of numbers below it", "none")
-    names = names[:-1] if names[-1] == "Comment" and len(rows[first]) == len(names) - 1 else names
-    comma = mark != "," and any(_COMMA.fullmatch(text) for text in rows[first]) and "." not in "".join(rows[first])
-    values = np.full((len(rows) - first, len(names)), np.nan)
-    for number, row in enumerate(rows[first:]):
-        line = skip + first + number + 2
-        if len(row) != len(names):
-            raise ConfigError(f"{path}:{line}", f"{len(names)} values", f"{len(row)}")
-        values[number] = [_number(text.replace(",", ".") if comma else text, path, line) for text in row]
-    return dict(zip(names, values.T, strict=True)), {
-        name: unit[1] for name, unit in zip(names, units, strict=False) if first and unit}
-
-
-def _text(path):
-    """The text of a file: UTF-16 by its mark, UTF-8, else Windows-1252 where it holds no control characters."""
-    try:
-        content = path.read_bytes()
-        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-            return content.decode("utf-16")
-        try:
-            return content.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            if re.search(rb"[\x00-\x08\x0e-\x1f]", content):
-                raise
-            return content.decode("cp1252")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(path, "a readable text table", str(error)) from None
-
-
-def _shorter(lines):
-    """Whether a file that ends within a line ends with a number of fewer digits in all, or fewer decimals, than all
-    others of its column."""
-    ends = [re.split(r"[\t;, ]+", line.strip())[-1].lstrip("+-") for line in lines[1:]]
-    return any(size(ends[-1]) < min(map(size, ends[:-1])) for size in (len, lambda end: len(end.partition(".")[2])))
 
 
 def write_table(path, channels):
@@ -220,11 +141,3 @@ def write_table(path, channels):
         writer.writerow(["time", *channels])
         writer.writerows([repr(begin + k / rate), *("" if lost else repr(float(value)) for value, lost in
                                                     zip(table[k], gap[k], strict=True))] for k in range(count))
-
-
-def _number(text, path, line):
-    if text.strip().lower() in MISSING:
-        return np.nan
-    if not _NUMBER.fullmatch(text):
-        raise ConfigError(f"{path}:{line}", "a number", repr(text))
-    return float(text)

@@ -1,16 +1,21 @@
 """From a column of numbers to a channel: SI units, gaps in the data, a constant sampling rate."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.mapped import Growing, Slices, blocks
 from pipeline.contract.units import in_si
 from pipeline.products import Channel
+from pipeline.recordings.tables.rounded import agrees, rounded_rate, roundings
 
 #: roles of a channel: measured response, or imposed excitation
 ROLES = ("response", "excitation")
 #: largest deviation of a sampling instant from an even grid, as a fraction of the interval
 EVEN = 0.01
+#: the same of instants that were not rounded, but for their numbers
+_EXACT = 1e-6
 #: parts of a record of a calibrator, each loud or not
 _BLOCKS = 40
 #: largest distance of an instant from a declared grid, in intervals
@@ -97,40 +102,80 @@ def stretches(flag):
     return edges.reshape(-1, 2)
 
 
+@dataclass(frozen=True)
+class Even:
+    """Even sampling: ``rate`` in Hz, ``begin`` in s; ``step`` in s to which instants were rounded, 0 of none that show
+    it, and the ``lowest`` and ``highest`` rate that agree with them."""
+
+    rate: float
+    begin: float
+    step: float = 0.0
+    lowest: float = 0.0
+    highest: float = 0.0
+
+
 def even_rate(time, where):
-    """(rate in Hz, begin in s) of sampling instants (sample,) in s; ConfigError if they are not evenly spaced."""
+    """(rate in Hz, begin in s) of sampling instants (sample,) in s, see ``even_times``."""
+    even = even_times(time, where)
+    return even.rate, even.begin
+
+
+def even_times(time, where, known=None):
+    """Even of sampling instants (sample,) in s, which may be rounded; ``known``: a rate in Hz that they may have.
+
+    Raises ConfigError if they are not evenly spaced, or rounded so that they leave their rate open.
+    """
     if len(time) < 2 or not all(np.isfinite(block).all() for block in blocks(time)):
         raise ConfigError(where, "at least two finite times", f"{len(time)}")
-    interval, first, off = (time[-1] - time[0]) / (len(time) - 1), 0, 0.0
+    interval, first, off = float(time[-1] - time[0]) / (len(time) - 1), 0, 0.0
     for block in blocks(time):
         off = max(off, np.abs(block - (time[0] + interval * np.arange(first, first + len(block)))).max())
         first += len(block)
+    rounded = rounded_rate(time, known) if interval > 0 and off > _EXACT * interval else None
+    if rounded:
+        return Even(rounded.rate, float(time[0]), rounded.step, rounded.lowest, rounded.highest)
     if interval <= 0 or off > EVEN * interval:
         raise ConfigError(where, "times at one even interval", f"a deviation of {off:.3g} s from {interval:.6g} s",
-                          "state resample: RATE, the rate of an even grid to interpolate on; where samples were lost,"
-                          " sample_rate: RATE")
-    return 1 / interval, float(time[0])
+                          "state resample: RATE, the rate of an even grid to interpolate on; where samples were lost or"
+                          " times are rounded, sample_rate: RATE")
+    return Even(1 / interval, float(time[0]))
 
 
 def on_grid(columns, time, rate, where):
     """(columns, begin in s) on the full even grid, NaN where a sample is missing; ``columns`` name -> (sample,).
 
     ``time`` (sample,) s: instants on a grid at ``rate`` Hz, of which some may be missing. Raises ConfigError for an
-    instant off the grid by more than OFF_GRID intervals, one that occurs twice, and a sample without a time.
+    instant off the grid by more than OFF_GRID intervals, one that occurs twice, and a sample without a time. Instants
+    that were rounded may be off by their rounding.
     """
     if not len(time) or not np.isfinite(time).all() or {len(values) for values in columns.values()} - {len(time)}:
         raise ConfigError(where, "a finite time of every sample", f"{np.isfinite(time).sum()} of"
                           f" {max(map(len, columns.values()), default=0)}", "correct the file, or leave the times out")
+    if agrees(time, rate):
+        return dict(columns), float(time[0])
     position = (time - time[0]) * rate
     index = np.rint(position).astype(int)
     off = np.abs(position - index).max()
+    if off > OFF_GRID:
+        index, off = _between_roundings(position, time, rate)
     if off > OFF_GRID or np.any(np.diff(index) < 1):
         raise ConfigError(where, f"rising times on a grid of {rate:g} Hz", f"one that is {off:.2g} intervals off it",
-                          "give the sampling rate of the record, or resample it")
+                          "give the sampling rate of the record, or resample it; times that are rounded to more than an"
+                          " interval do not show lost samples: where none was lost, leave time out")
     spread = {name: np.full(index[-1] + 1, np.nan) for name in columns}
     for name, values in columns.items():
         spread[name][index] = values
     return spread, float(time[0])
+
+
+def _between_roundings(position, time, rate):
+    """(places on a grid, largest distance from them beyond rounding) of ``position`` (sample,), instants in intervals
+    of which the first one too is rounded by less than an interval."""
+    bound = next((np.max(b) for b in reversed(roundings(time))), 0.0) * rate
+    turned = np.angle(np.mean(np.exp(2j * np.pi * position))) / (2.0 * np.pi)
+    index = np.rint(position - turned).astype(int)
+    off = 0.5 * np.ptp(position - turned - index)
+    return index - index[0], 0.0 if off <= bound * (1 + 1e-6) < 0.5 * (1 - _AT) else max(off, 2.0 * OFF_GRID)
 
 
 def interpolated(columns, time, rate, where):

@@ -9,8 +9,8 @@ from pipeline.contract import store
 from pipeline.contract.errors import BrakechainError
 from pipeline.products import Recording, Run
 from pipeline.recordings import apart
-from pipeline.recordings.columns import read_table
 from pipeline.recordings.samples import channel
+from pipeline.recordings.tables.text import read_table
 
 VALUES = np.sin(0.1 * np.arange(400))
 

@@ -1,4 +1,4 @@
-"""Columns of MATLAB files, plain HDF5 and text tables."""
+"""Columns of MATLAB files and plain HDF5; tables that are written."""
 
 import h5py
 import numpy as np
@@ -6,12 +6,13 @@ import pytest
 from scipy.io import savemat
 
 from pipeline.contract import ConfigError
-from pipeline.recordings.columns import read_columns, read_matlab, read_table, table, write_table
+from pipeline.recordings.columns import read_columns, read_matlab, write_table
 from pipeline.recordings.samples import channel
+from pipeline.recordings.tables.text import read_table
 
 
 def test_matlab_vectors_come_back_flat_and_text_is_left_out(tmp_path):
-    savemat(tmp_path / "a.mat", {"x": np.arange(3.0)[:, None], "k": 2, "name": "bench", "m": np.zeros((3, 3))})
+    savemat(tmp_path / "a.mat", {"x": np.arange(3.0)[:, None], "k": 2, "name": "bench", "m": np.zeros((3, 3, 3))})
     found = read_matlab(tmp_path / "a.mat")
     assert set(found) == {"x", "k"} and found["x"].tolist() == [0, 1, 2] and found["k"].tolist() == [2]
 
@@ -84,27 +85,6 @@ def test_matlab_tells_what_it_found_instead(tmp_path, content, message):
         read_matlab(tmp_path)
 
 
-@pytest.mark.parametrize("mark", ["\t", ";", ","])
-def test_tables_find_their_delimiter_and_mark_missing_samples(tmp_path, mark):
-    path = tmp_path / "a.txt"
-    path.write_text("made by a bench\n" + mark.join(("time", "force [N]")) + "\n" + mark.join(("0", "1e3")) + "\n"
-                    + mark.join(("0.1", "n/a")) + "\n")
-    found = read_table(path, skip=1)
-    assert found["time"].tolist() == [0, 0.1] and found["force [N]"][0] == 1000 and np.isnan(found["force [N]"][1])
-
-
-@pytest.mark.parametrize("text, message", [
-    ("a,b\n1,2\n1,x\n", r"a\.csv:3: expected a number, found 'x'"),
-    ("a,b\n1\n", r"a\.csv:2: expected 2 values, found 1"),
-    ("a,a\n1,2\n", r"a\.csv:1: expected each column name once"), ("a,b\n", "expected a header and at least one line"),
-])
-def test_tables_tell_the_line_of_a_mistake(tmp_path, text, message):
-    path = tmp_path / "a.csv"
-    path.write_text(text)
-    with pytest.raises(ConfigError, match=message):
-        read_table(path)
-
-
 def test_the_suffix_tells_the_kind_of_file(tmp_path):
     """The same column three times; what a suffix promises and the file is not is refused."""
     savemat(tmp_path / "a.mat", {"volt": np.arange(3.0)})
@@ -119,21 +99,6 @@ def test_the_suffix_tells_the_kind_of_file(tmp_path):
         read_columns(tmp_path / "b.h5")
 
 
-@pytest.mark.parametrize("text, told", [
-    ("t,x\n0,1_5\n", "2: expected a number, found '1_5'"), ("t,x\n0,0x1A\n", "a number"),
-    ("t,x\n0.0,1.2345\n0.1,1.2346\n0.2,1.2", "4: expected a last number as long as those above it"),
-    ("t,x\n0,infinity\n", "a number")])
-def test_numbers_that_are_none_and_a_last_one_that_is_cut_are_refused(tmp_path, text, told):
-    (tmp_path / "a.csv").write_text(text)
-    with pytest.raises(ConfigError, match=told):
-        read_table(tmp_path / "a.csv")
-
-
-def test_a_table_that_ends_without_a_line_break_is_read_where_its_last_number_is_whole(tmp_path):
-    (tmp_path / "a.csv").write_text("t,x\n0,10\n1,9\n2,8")
-    assert read_table(tmp_path / "a.csv")["x"].tolist() == [10, 9, 8]
-
-
 def test_a_table_that_is_written_is_read(tmp_path):
     values = np.array([1.0, np.nan, 1 / 3])
     made = {"a b": channel(values, "m", "displacement", 10.0, 0.5, "a"), "c": channel([1, 2, 3.5], "N", "force", 10.0,
@@ -144,43 +109,3 @@ def test_a_table_that_is_written_is_read(tmp_path):
     np.testing.assert_allclose(found["time"], [0.5, 0.6, 0.7])
     with pytest.raises(ConfigError, match="one rate, begin and length"):
         write_table(tmp_path / "b.csv", made | {"d": channel([1.0], "N", "force", 1.0, 0.0, "d")})
-
-
-@pytest.mark.parametrize("rows, cut, refused", [
-    ("-0.25 0.50 -0.75", 1, True), ("0.25 -0.50 0.75", 2, True), ("0.25 10.50 100.75", 1, True),
-    ("1.5 22.25 3.125", 1, False)])
-def test_a_table_cut_off_within_its_last_number(tmp_path, rows, cut, refused):
-    """It has fewer digits, or fewer decimals, than all others of its column; where those differ, nothing tells."""
-    (tmp_path / "a.csv").write_text("x\n" + "\n".join(rows.split())[:-cut])
-    if refused:
-        with pytest.raises(ConfigError, match="the file is cut off"):
-            read_table(tmp_path / "a.csv")
-    else:
-        assert read_table(tmp_path / "a.csv")["x"][-1] == 3.12
-
-
-@pytest.mark.parametrize("content, units", [
-    ("Time,a\n(ms),(V)\n\n0.1,1.5\n0.2,2.5\n", {"Time": "ms", "a": "V"}), ("Time;a\r\n0,1;1,5\r\n0,2;2,5\r\n", {}),
-    ("# Time a\n0.1 1.5\n0.2   2.5\n", {}),
-    ("LabVIEW Measurement\t\n***End_of_Header***\t\n\t\nChannels\t2\n***End_of_Header***\t\t\nTime\ta\tComment\n"
-     "0.1\t1.5\n0.2\t2.5\n", {})])
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
-def test_tables_of_other_programs(tmp_path, content, units, encoding):
-    (tmp_path / "a.txt").write_bytes(content.encode(encoding))
-    columns, found = table(tmp_path / "a.txt")
-    assert {name: values.tolist() for name, values in columns.items()} == {"Time": [0.1, 0.2], "a": [1.5, 2.5]}
-    assert found == units
-
-
-def test_a_table_of_windows_is_read_and_one_of_bytes_is_none(tmp_path):
-    (tmp_path / "a.csv").write_bytes("Zeit [s];Weg [µm]\n0,1;5\n".encode("cp1252"))
-    assert list(read_table(tmp_path / "a.csv")) == ["Zeit [s]", "Weg [µm]"]
-    (tmp_path / "b.csv").write_bytes(b"t,x\n\x01\xff\x00,2\n")
-    with pytest.raises(ConfigError, match="a readable text table"):
-        read_table(tmp_path / "b.csv")
-
-
-def test_a_comma_is_no_decimal_where_it_separates_or_points_stand_beside_it(tmp_path):
-    (tmp_path / "a.csv").write_text("t;x\n1.5;2,5\n")
-    with pytest.raises(ConfigError, match="2: expected a number, found '2,5'"):
-        read_table(tmp_path / "a.csv")

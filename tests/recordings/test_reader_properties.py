@@ -10,11 +10,12 @@ from scipy.io import savemat
 from pipeline.contract.errors import ConfigError
 from pipeline.products import Run
 from pipeline.recordings.audio import read_audio, write_audio
-from pipeline.recordings.columns import read_matlab, read_table, write_table
+from pipeline.recordings.columns import read_matlab, write_table
 from pipeline.recordings.mdf import read_mdf
 from pipeline.recordings.neutral import read_neutral, write_neutral
 from pipeline.recordings.samples import channel, with_gaps
 from pipeline.recordings.sep005 import run_of, signals_of
+from pipeline.recordings.tables.text import read_table
 from pipeline.recordings.tdms import read_tdms
 from pipeline.recordings.uff import read_uff
 from pipeline.recordings.uff_writer import write_uff

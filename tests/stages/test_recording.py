@@ -243,6 +243,40 @@ def test_a_file_of_sound_has_no_rows(tmp_path):
                         "columns": {"mic": {"column": "1", "unit": "Pa", "factor": 1}}})
 
 
+def test_columns_of_matrices_are_named_and_structures_state_their_rate(tmp_path):
+    data = np.column_stack([np.arange(50) / 1e4, SINE[:50], 2 * SINE[:50]])
+    savemat(tmp_path / "a.mat", {"data": data, "fs": 1e4})
+    savemat(tmp_path / "b.mat", {"S": {"x_values": {"start_value": 0.5, "increment": 1e-4},
+                                       "y_values": {"values": data[:, 1:]}}})
+    pad = {"unit": "m/s^2", "measures": "acceleration"}
+    matrix = {"kind": "matlab", "file": "a.mat", "time": "data(:,1)", "runs": {"a": {}},
+              "columns": {"pad": {"column": "data(:,3)", **pad}}}
+    testlab = {"kind": "matlab", "file": "b.mat", "runs": {"b": {}},
+               "columns": {"pad": {"column": "S.y_values.values(:,2)", **pad}}}
+    found, told = told_by(tmp_path, files=[matrix, testlab])
+    for name, begin in (("a", 0.0), ("b", 0.5)):
+        one = found.runs[name].channels["pad"]
+        assert float(one.rate) == pytest.approx(1e4) and float(one.begin) == begin
+        np.testing.assert_allclose(one.samples, 2 * SINE[:50])
+    assert any("a sampling rate of 10000 Hz, as the file says" in line for line in told)
+    with pytest.raises(ConfigError, match="data is a matrix: name one of its 3 columns, such as data"):
+        read(tmp_path, {**matrix, "columns": {"pad": {"column": "data", **pad}}})
+    with pytest.raises(ConfigError, match="found neither; add .* fs = 10000, which may mean sample_rate: 10000 Hz"):
+        read(tmp_path, {**matrix, "time": None})
+
+
+def test_what_was_taken_for_granted_of_a_table_is_told(tmp_path):
+    time = np.round(np.arange(4000) / 51200, 6)
+    rows = "".join(f"{t:.6f};{k};1\n".replace(".", ",") for k, t in enumerate(time))
+    (tmp_path / "b.csv").write_text("t;pos;u\n" + rows)
+    found, told = told_by(tmp_path, files=[{**TABLE, "sample_rate": None}])
+    assert float(found.runs["t"].channels["x"].rate) == 51200 and len(found.runs["t"].channels["x"].samples) == 4000
+    assert any("t states no unit: read in s" in line for line in told)
+    assert any("times are rounded to 1e-06 s" in line for line in told)
+    with pytest.raises(ConfigError, match="found 'posn'; read as utf-8, columns by ';', decimal ',', names in line 1"):
+        read(tmp_path, {**TABLE, "columns": {"x": {**COLUMNS["x"], "column": "posn"}}})
+
+
 @pytest.mark.parametrize("head", ["t,pos,u\n(ms),(mm),(N)\n", "t [ms],pos,u\n"])
 def test_times_are_in_the_unit_that_the_file_says(tmp_path, head):
     (tmp_path / "b.csv").write_text(head + "".join(f"{k},{k},1\n" for k in range(5)))

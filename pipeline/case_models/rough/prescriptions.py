@@ -91,6 +91,7 @@ def _comparison(scan, result, maps, settings):
     missed += ["spectrum"] * bool(band.max() > MISS)
     whole = scan.heights - scan.heights.mean()
     return [
+        *([f"read: {scan.told}"] if scan.told else []),
         f"{settings.file.name}: patches of {result.length:.4g} m, waves down to {result.shortest:.3g} m; means of"
         f" {settings.seeds} seeds",
         f"{'':<16}{'scan':>14}{'generated':>14}{'deviation':>12}",

@@ -10,15 +10,23 @@ BODIES = ("disc", "pad")
 
 _HEIGHT_UNIT = ("what a metre of the file's heights truly is, where the file states a wrong unit: 1 mm for heights a"
                 " thousand times too large; 1 m where an Sq below 1 nm or above 100 um is right")
+_SCAN_UNIT = f"what 1 of the file's heights is, where the file states no unit: 1 um; {_HEIGHT_UNIT}"
 
 
 class ScanFile(Section):
     """A scan and how it is read."""
 
-    file: InputFile = option(..., "scan in any format that SurfaceTopography reads; measured:PATH for a registered one")
+    file: InputFile = option(..., "scan in any format that SurfaceTopography reads, points x y z or a matrix of"
+                                  " heights; measured:PATH for a registered one")
+    channel: str | None = option(None, "channel of the file with the heights, where it has several")
     transposed: bool = option(False, "turn the scan by 90 degrees, so that turning marks run along sliding (x)")
     outlier_threshold: float = option(8.0, "local median test: difference over robust scatter that is an outlier", gt=0)
-    height_unit: Quantity("m", gt=0) | None = option(None, _HEIGHT_UNIT)
+    height_unit: Quantity("m", gt=0) | None = option(None, _SCAN_UNIT)
+    lateral_unit: Quantity("m", gt=0) | None = option(None, "what 1 of x and y is in a file of points x y z without a"
+                                                            " unit; none = as height_unit")
+    pixel_size: Quantity("m", gt=0) | None = option(None, "distance of neighbouring heights along x, where the file"
+                                                          " does not state it")
+    pixel_size_y: Quantity("m", gt=0) | None = option(None, "the same along y; none = as along x")
 
 
 class Scan(ScanFile):

@@ -6,6 +6,7 @@ The one door of SurfaceTopography. Maps are (ny, nx) in m, NaN where the instrum
 import contextlib
 import io
 import logging
+import re
 import warnings
 from dataclasses import dataclass
 
@@ -18,16 +19,29 @@ from pipeline.physics.rough.patch import periodic_patch
 from pipeline.physics.rough.plausible_scan import refuse_coarse
 from pipeline.physics.rough.prescribed.heights import moments
 
+#: formats of text
+_TEXT = ("asc", "xyz", "matrix")
+_LIKELY = re.compile(r"topo|height|z\b", re.IGNORECASE)
 #: median absolute deviation to standard deviation of Gaussian scatter
 MAD_TO_RMS = 1.4826
 
 
+class UnscaledScan(ConfigError):
+    """A file that may be a scan, but states no unit or no size; ``heights`` (row, column) as it has them, or None."""
+
+    def __init__(self, *parts, heights=None):
+        super().__init__(*parts)
+        self.heights = heights
+
+
 @dataclass(frozen=True)
 class Scan:
-    """Measured ``heights`` (ny, nx) in m with NaN where missing, and ``spacing`` (dy, dx) in m."""
+    """Measured ``heights`` (ny, nx) in m with NaN where missing, and ``spacing`` (dy, dx) in m; ``told``: what of the
+    file they are, where that is a choice."""
 
     heights: np.ndarray
     spacing: tuple
+    told: str = ""
 
 
 @dataclass(frozen=True)
@@ -42,20 +56,22 @@ class Statistics:
     rms_slope: float
 
 
-def read_scan(path):
+def read_scan(path, channel=None):
     """Scan of any file that SurfaceTopography reads (x3p, sur, opd, al3d, plu, dat, nc, ...), heights outwards.
 
-    Raises ConfigError that names the file when it is unreadable, tells no size, or holds no or constant heights.
+    ``channel``: name of that with the heights, where a file has several. Raises ConfigError that names the file when it
+    is unreadable, holds no or constant heights, or several channels of which none is stated; UnscaledScan where it
+    states no unit or size.
     """
     where = f"scan {path}"
     with _quiet_readers():
-        topography = _open(path, where)
+        topography, told = _open(path, where, channel)
         heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
         size_x, size_y = topography.physical_sizes
     if not np.isfinite(heights).any():
         raise ConfigError(where, "measured heights", "no value that is a number", "choose another scan")
     _refuse_constant(heights, where)
-    return Scan(heights, (size_y / heights.shape[0], size_x / heights.shape[1]))
+    return Scan(heights, (size_y / heights.shape[0], size_x / heights.shape[1]), told)
 
 
 def remove_outliers(heights, threshold, window=5):
@@ -117,20 +133,52 @@ def isotropic_spectrum(heights, spacing):
     return np.ma.getdata(wave)[filled], np.ma.getdata(power)[filled]
 
 
-def _open(path, where):
+def _open(path, where, name):
+    """(topography in m, what of the file it is) of the only channel of heights, or of that called ``name``."""
     from SurfaceTopography import open_topography
     from SurfaceTopography.IO import CannotDetectFileFormat, ReadFileError
 
     remedy = "check the file; 'SurfaceTopography' lists the formats it reads"
     try:
-        topography = open_topography(str(path)).topography()
-        if topography.dim != 2 or topography.unit is None:
-            raise ConfigError(where, "a map with its length unit", "a profile or no unit", "save it with its unit")
-        return topography.to_unit("m")
+        reader = open_topography(str(path))
+        channel, told = _channel(reader, name, where)
+        if channel.unit is None or channel.physical_sizes is None:
+            raise UnscaledScan(where, "a map with its length unit", "no unit or no size", "state pixel_size and"
+                               " height_unit", heights=_as_held(reader, channel))
+        return channel.topography().to_unit("m"), told
     except CannotDetectFileFormat:
-        raise ConfigError(where, "a surface scan", "no format that is known", remedy) from None
-    except (ReadFileError, ValueError, EOFError, OSError) as error:
+        raise UnscaledScan(where, "a surface scan", "no format that is known", remedy) from None
+    except (ReadFileError, ValueError, EOFError, OSError, IndexError) as error:
         raise ConfigError(where, "a surface scan", (str(error).splitlines() or ["nothing"])[0][:120], remedy) from None
+
+
+def _channel(reader, name, where):
+    """(channel of a file, what of it this is): the only one of heights, or that called ``name``."""
+    from SurfaceTopography.IO.Reader import DataKind
+
+    maps = [c for c in reader.channels if c.dim == 2 and min(c.nb_grid_pts or (2,)) > 1]
+    names = [c.name if [d.name for d in maps].count(c.name) == 1 else f"{c.name} ({c.index + 1})" for c in maps]
+    heights = {n: c for n, c in zip(names, maps, strict=True)
+               if c.data_kind is DataKind.HEIGHT and not (isinstance(c.data_unit, tuple) and None in c.data_unit)}
+    if not heights:
+        others = ", ".join(c.name for c in reader.channels) or "none"
+        raise ConfigError(where, "a surface scan with a map of heights", others, "choose another scan")
+    if name is None and len(heights) > 1:
+        likely = next((n for n in heights if _LIKELY.match(n)), next(iter(heights)))
+        raise ConfigError(f"{where}: channel", "one channel of heights", f"{len(heights)}: {', '.join(heights)}",
+                          f"state which one holds the topography, such as channel: {likely}")
+    name = next(iter(heights)) if name is None else name
+    if name not in heights:
+        raise ConfigError(f"{where}: channel", f"a channel of heights, one of {', '.join(heights)}", repr(name))
+    return heights[name], f"channel {name}" * (len(maps) > 1)
+
+
+def _as_held(reader, channel):
+    """Heights (row, column) as a file of one array holds them, whose rows lie along y; None of text."""
+    if reader.format() in _TEXT:
+        return None
+    topography = channel.topography(**({} if channel.physical_sizes else {"physical_sizes": channel.nb_grid_pts}))
+    return np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
 
 
 def _topography(heights, spacing, periodic):

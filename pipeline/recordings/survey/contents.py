@@ -9,10 +9,11 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
 from pipeline.recordings.apart import runs, waveforms
-from pipeline.recordings.columns import table
 from pipeline.recordings.runs.even_times import on_even_times
-from pipeline.recordings.samples import EVEN, GAP, OFF_GRID, with_gaps
+from pipeline.recordings.samples import EVEN, GAP, OFF_GRID, even_times, with_gaps
 from pipeline.recordings.survey.meanings import meaning, split_unit
+from pipeline.recordings.tables.sampling import time_unit
+from pipeline.recordings.tables.text import TextTable, text_table
 from pipeline.recordings.waveform import free_name, plain_name
 
 #: kind of a file by its suffix; any other is tried as a text table
@@ -23,6 +24,8 @@ _SHEETS = (".xls", ".xlsx", ".ods")
 _FEWEST = 20
 #: share of all rows beyond which one piece stands for all
 _MOST = 0.8
+#: names of columns that have none of their own
+_NO_NAME = re.compile(r"column 1|.*\(:,1\)|.*\(1,:\)")
 #: piece of a column of numbers that names it: runs have so many values at most
 _LABELS = 40
 
@@ -111,13 +114,13 @@ def _of_waveforms(path, kind):
 
 
 def _of_columns(path, kind):
-    columns, units = table(path) if kind == "table" else ({n: w.values for n, w in waveforms("matlab", path).items()},
-                                                          {})
-    longest = max(map(len, columns.values()))
-    columns = {name: np.asarray(values, float) for name, values in columns.items() if len(values) == longest}
-    time = next((name for name, values in columns.items() if _is_time(name, values)), None)
+    table = text_table(path) if kind == "table" else TextTable.of(waveforms("matlab", path))
+    units, longest = table.units, max(map(len, table.columns.values()))
+    columns = {name: np.asarray(values, float) for name, values in table.columns.items() if len(values) == longest}
+    time = next((name for name, values in columns.items() if _is_time(name, values)), None) or _unnamed_time(columns)
     label = next((name for name, values in columns.items() if name != time and _is_label(name, values)), None)
-    settings, spans, rate, remarks = _timing(time, columns.get(time), longest, units.get(time))
+    settings, spans, rate, remarks = _timing(time, columns.get(time), longest, (units.get(time, ""), table.rate))
+    remarks = [*table.remarks, *(f"{name} is left out: it holds texts" for name in table.flaws), *remarks]
     main = max(spans, key=lambda span: span[1] - span[0])
     spans = [main] if main[1] - main[0] > _MOST * longest else spans
     stem, signals = _run_name(path), {}
@@ -131,6 +134,15 @@ def _of_columns(path, kind):
                               rate, {run: values[a:b] for run, (a, b) in zip(names, spans, strict=True)})
     stated = {run: {} if (a, b) == (0, longest) else {"rows": [a, b]} for run, (a, b) in zip(names, spans, strict=True)}
     return Contents(path, kind, settings, signals, stated, len(spans) == 1, remarks)
+
+
+def _unnamed_time(columns):
+    """The first column where its name tells nothing and it rises evenly, as times do; None of any other."""
+    name, values = next(iter(columns.items()))
+    if len(columns) < 2 or not _NO_NAME.fullmatch(name) or not np.isfinite(values).all() or len(values) < _FEWEST:
+        return None
+    step = np.diff(values)
+    return name if (step >= 0).all() and step.max() > 0 and _off(values) <= 1.0 else None
 
 
 def _is_time(name, values):
@@ -147,15 +159,28 @@ def _is_label(name, values):
                 and re.search(r"#|drop|run|test|trial|segment|no\b|number|id\b", name, re.IGNORECASE))
 
 
-def _timing(name, time, count, unit):
-    """(settings, [(first, after last)] of the pieces, rate in Hz, remarks) of a column of times, or of none."""
+def _timing(name, time, count, head):
+    """(settings, [(first, after last)] of the pieces, rate in Hz, remarks) of a column of times, or of none; ``head``
+    (unit, rate) as the file says."""
     if name is None:
+        if head[1]:
+            return {"sample_rate": f"{head[1]:.8g} Hz"}, [(0, count)], head[1], ["sampling rate as the file says"]
         return ({"sample_rate": "1 Hz"}, [(0, count)], 1.0,
                 ["no column of times: one sample a second is assumed; state the sampling rate of the record"])
-    unit = unit or split_unit(name)[1] or "s"
+    unit, assumed = time_unit(name, None, head, time, "time_unit")
     time = np.asarray(in_si(time, unit, "unit")[0], float)
     step = np.diff(time)
-    usual, settings = float(np.median(step[step > 0])), {"time": name} | ({"time_unit": unit} if unit != "s" else {})
+    usual = float(np.median(step[step > 0]))
+    settings = {"time": name} | ({"time_unit": unit} if unit != "s" else {})
+    remarks = [f"{name} states no unit: read in s; else time_unit: ms"] if assumed else []
+    if (step >= 0).all():
+        try:
+            even = even_times(time, name, head[1])
+        except ConfigError:
+            even = None
+        if even and even.step:
+            return (settings | {"sample_rate": f"{even.rate:.8g} Hz"}, [(0, count)], even.rate,
+                    [f"times are rounded to {even.step:.3g} s: an even grid of {even.rate:.8g} Hz is read", *remarks])
     if (step >= 0).all() and (step == 0).any() and _off(time) * np.mean(step) <= step[step > 0].min():
         rate = float(f"{1 / np.mean(step):.4g}")
         return ({"sample_rate": f"{rate:g} Hz"}, [(0, count)], rate,
@@ -166,12 +191,12 @@ def _timing(name, time, count, unit):
         raise ConfigError(name, f"times of {_FEWEST} samples that rise evenly", f"{count} rows in pieces")
     mean = sum(b - a - 1 for a, b in spans) / sum(time[b - 1] - time[a] for a, b in spans)
     if all(_off(time[a:b]) <= EVEN for a, b in spans):
-        return settings, spans, mean, []
+        return settings, spans, mean, remarks
     lost = all(_on_grid(time[a:b], usual) for a, b in spans)
     rate = float(f"{1 / usual:.6g}") if lost else float(f"{mean:.2g}")
     off = max(_off(time[a:b]) for a, b in spans)
     what = "samples are missing" if lost else f"times are uneven, by {off:.2g} intervals"
-    return settings | {"resample": f"{rate:g} Hz"}, spans, rate, [f"{what}: interpolated on {rate:g} Hz"]
+    return settings | {"resample": f"{rate:g} Hz"}, spans, rate, [f"{what}: interpolated on {rate:g} Hz", *remarks]
 
 
 def _on_grid(time, interval):

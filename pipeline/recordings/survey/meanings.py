@@ -7,8 +7,12 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si, measured_in
 
 #: unit in a name, as in "Position [mm]", "Force (N)", "F/N" or "torque_Nm"
-_WITH_UNIT = (re.compile(r"(.*\S)\s*[\[(]\s*([^\])]*?)\s*[\])]"), re.compile(r"(.*\w)\s*/\s*([A-Za-z][\w^/ ]*)"),
-              re.compile(r"(.*[A-Za-z0-9])_(mm|um|nm|m|N|kN|mN|uN|Nm|mNm|rad|deg|rpm|V|mV|A|mA|s|ms|MPa|kPa)"))
+_LETTERS = r"A-Za-z\u00b5\u03bc\u00b0%"
+_WITH_UNIT = (re.compile(r"(.*\S)\s*[\[(]\s*([^\])]*?)\s*[\])]"),
+              re.compile(rf"(.*?\S)\s+/\s+([{_LETTERS}][\w^/]*)"),
+              re.compile(rf"(.*\w)\s*/\s*([{_LETTERS}][\w^/ ]*)"),
+              re.compile(rf"(.*\w)(?:,|\s+in)\s+([{_LETTERS}][\w^/]*)"),
+              re.compile(r"(.*[A-Za-z0-9])_(mm|um|nm|m|N|kN|mN|uN|Nm|mNm|rad|deg|rpm|V|mV|A|mA|s|ms|us|min|MPa|kPa)"))
 #: what is measured -> (names, units by rotation: no, yes)
 _NAMES = {
     "time": (r"t|time|zeit|timestamps?|seconds|xvalue", ("s", "s")),

@@ -290,6 +290,7 @@ class _Choice:
     """What a case says of a scan."""
 
     transposed, outlier_threshold, height_unit = False, 1e3, None
+    channel = lateral_unit = pixel_size = pixel_size_y = None
 
     def __init__(self, path):
         self.file = path
@@ -297,7 +298,9 @@ class _Choice:
 
 def _scanned(path):
     scans.levelled(_Choice(path), "surface.pad")
-    scan = scans.answered(f"{scans.__name__}:leave_scan", path, scans._scan)
+    stated = dict.fromkeys(scans._STATED)
+    scan, _ = scans.answered(f"{scans.__name__}:leave_scan", path, scans._scan, where="surface.pad", channel=None,
+                             stated=stated)
     return {"heights": scan.heights, "spacing": scan.spacing}
 
 

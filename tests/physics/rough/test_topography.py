@@ -1,6 +1,7 @@
 """Reading, cleaning and describing scans; bad files end in one clear error."""
 
 import os
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -141,3 +142,48 @@ def test_real_scans_are_read_and_cleaned(name):
     assert 0.0 <= share < 0.05 and filled >= share
     assert 1e-9 < levelled.std() < 1e-4
     assert 5e-8 < scan.spacing[0] < 5e-6
+
+
+def gwyddion(path, channels, size=96e-6):
+    """A file of Gwyddion with channels [(title, heights, unit)]."""
+    def component(name, kind, content):
+        return name.encode() + b"\0" + kind + content
+
+    def held(name, content):
+        return name.encode() + b"\0" + struct.pack("<I", len(content)) + content
+
+    inside = b""
+    for k, (title, heights, unit) in enumerate(channels):
+        rows, columns = heights.shape
+        field = component("xres", b"i", struct.pack("<i", columns)) + component("yres", b"i", struct.pack("<i", rows))
+        field += b"".join(component(n, b"d", struct.pack("<d", size)) for n in ("xreal", "yreal"))
+        field += b"".join(component(n, b"o", held("GwySIUnit", component("unitstr", b"s", u.encode() + b"\0")))
+                          for n, u in (("si_unit_xy", "m"), ("si_unit_z", unit)))
+        field += component("data", b"D", struct.pack("<I", heights.size) + heights.astype("<f8").tobytes())
+        inside += component(f"/{k}/data", b"o", held("GwyDataField", field))
+        inside += component(f"/{k}/data/title", b"s", title.encode() + b"\0")
+    path.write_bytes(b"GWYP" + held("GwyContainer", inside))
+    return path
+
+
+def test_of_several_channels_of_heights_one_is_asked_for(tmp_path, rough):
+    heights, error = rough[:60], 0.1 * rough[:60]
+    file = gwyddion(tmp_path / "a.gwy", [("Amplitude error", error, "m"), ("Topography", heights, "m"),
+                                         ("Phase", error, "deg")])
+    with pytest.raises(ConfigError, match="channel: expected one channel of heights, found 2: Amplitude error,"
+                                          " Topography; state which .* such as channel: Topography"):
+        read_scan(file)
+    scan = read_scan(file, "Topography")
+    np.testing.assert_allclose(scan.heights, heights, atol=1e-14)
+    assert scan.told == "channel Topography"
+    for other in ("Phase", "Height"):
+        with pytest.raises(ConfigError, match=f"one of Amplitude error, Topography, found '{other}'"):
+            read_scan(file, other)
+
+
+def test_the_only_channel_of_heights_is_taken_and_equal_names_are_numbered(tmp_path, rough):
+    file = gwyddion(tmp_path / "a.gwy", [("Intensity", rough, "V"), ("Height", rough, "m")])
+    np.testing.assert_allclose(read_scan(file).heights, rough, atol=1e-14)
+    assert read_scan(gwyddion(tmp_path / "b.gwy", [("Z", rough, "m")])).told == ""
+    twice = gwyddion(tmp_path / "c.gwy", [("Height", rough, "m"), ("Height", 2 * rough, "m")])
+    np.testing.assert_allclose(read_scan(twice, "Height (2)").heights, 2 * rough, atol=1e-14)

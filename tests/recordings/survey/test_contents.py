@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.io import savemat
 
 from pipeline.contract import ConfigError
 from pipeline.recordings.survey.contents import contents
@@ -47,6 +48,27 @@ def test_rounded_times_tell_a_rate(tmp_path):
     found = contents(table(tmp_path, "t,x", time, np.sin(time)))
     assert float(
         found.settings["sample_rate"].split()[0]) == pytest.approx(25600, rel=1e-3)
+
+
+def test_matrices_and_tables_without_names_begin_with_their_times(tmp_path):
+    values = np.column_stack([np.arange(100) / 50, np.sin(np.arange(100.0))])
+    savemat(tmp_path / "a.mat", {"data": values})
+    np.savetxt(tmp_path / "b.txt", values)
+    for name, column in (("a.mat", "data(:,{})"), ("b.txt", "column {}")):
+        found = contents(tmp_path / name)
+        assert found.settings == {"time": column.format(1)} and [s.column for s in found.signals.values()] == [
+            column.format(2)]
+        assert any("states no unit: read in s" in remark for remark in found.remarks)
+
+
+def test_a_scope_states_its_units_and_a_head_its_rate(tmp_path):
+    rows = "".join(f"{k / 10:.1f},{np.sin(k):.5f}\n" for k in range(60))
+    (tmp_path / "a.csv").write_text("Time,Channel A\n(ms),(V)\n\n" + rows)
+    found = contents(tmp_path / "a.csv")
+    assert found.settings == {"time": "Time", "time_unit": "ms"} and found.signals["Channel_A"].meaning.unit == "V"
+    (tmp_path / "b.csv").write_text("Sample rate: 10 kHz\n\nx,y,state\n" + rows.replace("\n", ",OK\n"))
+    found = contents(tmp_path / "b.csv")
+    assert found.settings == {"sample_rate": "10000 Hz"} and "state is left out: it holds texts" in found.remarks
 
 
 def test_workbooks_are_refused_with_a_remedy(tmp_path):

@@ -1,0 +1,1 @@
+"""Tables of instruments: heads, units, time stamps, rounded times, matrices."""
