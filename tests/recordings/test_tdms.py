@@ -94,14 +94,14 @@ def test_each_channel_has_the_times_before_it(tmp_path):
 def test_instants_and_seconds_since_1904_are_on_one_clock(tmp_path):
     """Absolute times of two loggers, one as time stamps, one as LabVIEW counts seconds, beside a waveform."""
     since_1904 = (T0 - np.datetime64("1904-01-01", "us")) / np.timedelta64(1, "s")
-    uneven = np.array([0, 10_000, 21_000, 30_000, 41_000], "timedelta64[us]")
+    uneven = np.array([0, 10_137, 21_291, 30_004, 41_512], "timedelta64[us]")
     found = read_tdms(written(
         tmp_path / "a.tdms", ("mic", SINE, {"wf_increment": 1e-3, "wf_start_time": T0}),
         ("Timestamp", T0 + np.timedelta64(2, "s") + uneven, {"group": "bus"}),
         ("speed", np.arange(5.0), {"group": "bus"}),
         ("Time", since_1904 + 1.5 + np.arange(9) / 8, {"group": "log"}), ("line", np.zeros(9), {"group": "log"})))
     assert set(found) == {"g/mic", "bus/speed", "log/line"} and found["bus/speed"].rate is None
-    np.testing.assert_allclose(found["bus/speed"].times, [2.0, 2.01, 2.021, 2.03, 2.041], atol=1e-9)
+    np.testing.assert_allclose(found["bus/speed"].times, [2.0, 2.010137, 2.021291, 2.030004, 2.041512], atol=1e-9)
     assert found["log/line"].rate == pytest.approx(8) and found["log/line"].begin == pytest.approx(1.5, abs=1e-5)
 
 

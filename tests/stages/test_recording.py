@@ -320,7 +320,8 @@ def test_several_files_make_one_run(tmp_path):
     assert float(clock.offset) == pytest.approx(1.75, abs=3 * float(clock.offset_std)) and 0 < clock.offset_std < 1e-3
     assert float(force.begin) - force.samples[0] == pytest.approx(0.0, abs=1e-3)
     assert float(run.clocks["p_csv"].offset_std) == 0.005 and list(run.conditions) == ["speed"]
-    assert found.remarks.tolist() == told and len(told) == 2 and "1 s +- 0.005 s are added to its times" in told[0]
+    assert found.remarks.tolist() == told and len(told) == 3 and "1 s +- 0.005 s are added to its times" in told[1]
+    assert "t states no unit: read in s" in told[0]
     assert not found.runs["rest"].clocks
 
 
