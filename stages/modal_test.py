@@ -23,8 +23,8 @@ class Settings(Section):
 
 #: share of a part by which it reaches into its neighbours, where its modes are not kept, and by which its edges move
 _OVERLAP, _MOVABLE = 0.25, 0.25
-#: lines within the half-power band of a mode from which its damping comes out to 2 % under a lasting force
-_WITHIN = 8
+#: lines within the half-power band of a mode from which its damping comes out to 1 % under a lasting force
+_WITHIN = 4
 #: fewest lines of a part
 _LEAST = 64
 #: likeness of two shapes up to which modes close in frequency make a pair
@@ -38,9 +38,10 @@ def modal_test(responses: ResponseFunctions, settings: Settings, context: Contex
     Method:
     Poles of common denominators of rising order up to {order} (least squares complex frequency) were followed from
     order to order, in parts of the band of {band}; those that came back were refined together with their residues by
-    weighted least squares over all responses. Modes whose residues do not exceed four standard deviations were left
-    out, and poles added or split where more than noise was left. Standard deviations are those of the least squares,
-    the noise of each response being what is left of it. What windows of blows and correlations add is taken off the
+    weighted least squares over all responses until they moved by less than a hundredth of their standard deviations.
+    Modes whose residues do not exceed four standard deviations, or that do not settle, were left out, and poles added
+    or split where more than noise was left. Standard deviations are those of the least squares; the noise of each
+    response, a constant and a share of its size, is told by what is left of it from line to line. What windows of blows and correlations add is taken off the
     decay rates.
     """
     return ModalTest(runs={name: _modes(name, test, settings, context) for name, test in responses.tests.items()})
