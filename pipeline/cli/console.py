@@ -53,7 +53,7 @@ class _Advance(context.Progress):
 
 
 class Bars:
-    """Progress bars of one run; silent if ``console`` is not a terminal."""
+    """Progress bars of one run; lines alone if ``console`` is not a terminal."""
 
     def __init__(self, console=None):
         self.console = console or Console(stderr=True)
@@ -88,9 +88,9 @@ class Bars:
             self._live.remove_task(task)
 
     def log(self, message):
-        """One line above the bars."""
-        if self.console.is_terminal:
-            (self._live.console if self._live else self.console).print(message, highlight=False, markup=False)
+        """One line above the bars; in a pipe, too, a line."""
+        (self._live.console if self._live else self.console).print(message, highlight=False, markup=False,
+                                                                   soft_wrap=not self.console.is_terminal)
 
 
 @dataclass(frozen=True)

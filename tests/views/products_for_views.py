@@ -163,7 +163,8 @@ def response_functions(known=True):
         line=line, response=response, coherence=np.full((4, 200), 0.98) if known else np.empty((0, 200)),
         label=[f"x_{k}" for k in range(4)], unit=["m/N"] * 4, place=[f"node {k} direction 3" for k in range(4)],
         reference=["node 0 direction 3"] * 4, method="blows" if known else "given", averages=[2 if known else 0],
-        left_out=["2.1 s: struck twice"] if known else [], decay=3.5 if known else 0.0)})
+        left_out=["2.1 s: struck twice"] if known else [], decay=3.5 if known else 0.0,
+        remark=[] if known else ["phases have the opposite sign"])})
 
 
 def noise_events(quiet=False):

@@ -35,8 +35,8 @@ _AVERAGES = 16
 _LONGER = 10
 #: share of the power of a response with another phase below which it has one phase alone
 _ONE_PHASE = 1e-9
-#: part of the band over which its size is smoothed, inverse widths of the band next to 0 s that do not count, and by how
-#: much more power comes on one side of it than on the other where that is clear
+#: part of the band over which its size is smoothed, inverse widths of the band next to 0 s that do not count, and by
+#: how much more power comes on one side of it than on the other where that is clear
 _BROAD, _NEAR, _CLEARLY = 16, 3, 2.0
 
 
@@ -205,8 +205,8 @@ def from_motions(motion, references, rate, resolution=None):
     return Estimated(np.fft.rfftfreq(size, 1 / rate), np.swapaxes(response, 0, 1), None, count // size, decay)
 
 
-def sense_of_phase(frequency, response):
-    """(n,) of ``response`` (n, f) at even ``frequency`` (f,): 1 where it follows its force, -1 where it would precede it
+def sense_of_phase(response):
+    """(n,) of ``response`` (n, f) at even frequencies: 1 where it follows its force, -1 where it would precede it
     (phases of the opposite sign), 0 where it cannot be told, NaN where all values have one phase, as sizes alone have.
 
     Told by the inverse transform over the band, each response over its smoothed size: what comes before the force and
@@ -221,4 +221,4 @@ def sense_of_phase(frequency, response):
     half = (count + 1) // 2
     after, before = pulse[:, _NEAR:half].sum(axis=1), pulse[:, count - half + 1:count - _NEAR + 1].sum(axis=1)
     sense = (after > _CLEARLY * before).astype(float) - (before > _CLEARLY * after)
-    return np.where(one_phase, np.nan, sense)
+    return np.where(one_phase & (power > 0.0), np.nan, sense)
