@@ -10,6 +10,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
 from pipeline.contract.units import in_si, measured_in
+from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.physics.signals.spectra import HEARING
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
@@ -204,6 +205,10 @@ def recording(settings: Settings, context: Context) -> Recording:
         collected |= new_runs
         source.append(f"{file.file.name} {digest(file.file)}")
     _check_repeats(collected)
+    for name, run in collected.items():
+        for key, one in run.channels.items():
+            if told := overload_told(one):
+                context.log(f"{name}, {key}: {told}")
     context.log(f"{len(collected)} runs: {', '.join(collected)}")
     return Recording(source=source, runs=collected)
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.contract.errors import first_of
+from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.physics.signals import frequency_response as estimate
 from pipeline.products import Recording, ResponseFunctions, TestResponses
 from pipeline.recordings.samples import place_of
@@ -122,7 +123,12 @@ def _test(found, method, motions, references, unit, link):
         place=[place_of(motion, motions[motion]) for motion, _ in keys],
         reference=[place_of(reference, references[reference]) for _, reference in keys], method=method,
         averages=[found.averages], left_out=[f"{time:.4g} s: {why}" for time, why in found.left_out],
-        decay=found.decay, remark=[])
+        decay=found.decay, remark=_overloaded({**references, **motions}) if method != METHODS["blows"] else [])
+
+
+def _overloaded(channels):
+    """Remarks on channels of a lasting record that are held at the end of their range; blows that are were left out."""
+    return [f"{name}: {told}" for name, one in channels.items() if (told := overload_told(one))]
 
 
 def _estimated(where, method, forces, motions, settings, rate, window):
