@@ -23,8 +23,10 @@ class Settings(Section):
 
 #: share of a part by which it reaches into its neighbours, where its modes are not kept, and by which its edges move
 _OVERLAP, _MOVABLE = 0.25, 0.25
-#: lines within the half-power band of a mode from which its damping comes out to 2 % under a lasting force
-_WITHIN = 8
+#: lines within the half-power band of a mode from which its damping comes out to 1 % under a lasting force
+_WITHIN = 4
+#: standard deviations by which a mode that grows is none of noise
+_GROWN = 4.0
 #: fewest lines of a part
 _LEAST = 64
 #: likeness of two shapes up to which modes close in frequency make a pair
@@ -38,10 +40,11 @@ def modal_test(responses: ResponseFunctions, settings: Settings, context: Contex
     Method:
     Poles of common denominators of rising order up to {order} (least squares complex frequency) were followed from
     order to order, in parts of the band of {band}; those that came back were refined together with their residues by
-    weighted least squares over all responses. Modes whose residues do not exceed four standard deviations were left
-    out, and poles added or split where more than noise was left. Standard deviations are those of the least squares,
-    the noise of each response being what is left of it. What windows of blows and correlations add is taken off the
-    decay rates.
+    weighted least squares over all responses until they moved by less than a hundredth of their standard deviations.
+    Modes whose residues do not exceed four standard deviations, or that do not settle, were left out, and poles added
+    or split where more than noise was left. Standard deviations are those of the least squares; the noise of each
+    response, a constant and a share of its size, is told by what is left of it from line to line. What windows of
+    blows, of correlations and of given responses add is taken off the decay rates.
     """
     return ModalTest(runs={name: _modes(name, test, settings, context) for name, test in responses.tests.items()})
 
@@ -62,6 +65,7 @@ def _modes(name, test, settings, context):
     found = context.map(partial(_identified, axis=axis, response=response, most=settings.order), parts,
                         f"modes of {name}")
     free = [replace(one, pole=one.pole + test.decay) for one in found]
+    _refuse_growing(where, test, free)
     kept = [(one, one.frequency >= first, one.frequency < last) for one, (first, last, *_) in zip(
         free, parts, strict=True)]
     fields = ("frequency", "frequency_std", "damping_ratio", "damping_ratio_std", "residue", "residue_std")
@@ -74,6 +78,18 @@ def _modes(name, test, settings, context):
         place=list(test.place), reference=list(test.reference), shape=modes["residue"],
         shape_std=modes["residue_std"], likeness=_likeness(modes["residue"]),
         **_fit(axis, response, inside, found, parts), **_diagram(kept, parts, float(test.decay)))
+
+
+def _refuse_growing(where, test, free):
+    """Refuse a window, stated of given responses, that is more than the decay of a mode, whatever its error."""
+    grown = [(f, p.real, d) for one in free for f, p, d in zip(one.frequency, one.pole, one.std[:, 0], strict=True)
+             if p.real > _GROWN * d]
+    if grown and str(test.method) == "given":
+        frequency, rate, _ = max(grown, key=lambda row: row[1] / row[2])
+        raise ConfigError(where, f"decay rates above that of the window, {test.decay:.4g} 1/s",
+                          f"{test.decay - rate:.4g} 1/s at {frequency:.4g} Hz", "correct"
+                          " response_functions.window_decay or window_end: what was measured under a window decays"
+                          " faster than it")
 
 
 def _narrow(test, modes):

@@ -9,11 +9,12 @@ import numpy as np
 
 from pipeline.case_models.named_modes import named_modes
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
-from pipeline.contract.mapped import Slices
+from pipeline.contract.mapped import Slices, blocks
 from pipeline.physics.signals.frames import frames
 from pipeline.physics.signals.listening import LONGEST, RATE, excerpt
-from pipeline.physics.signals.noise_events import Broadband, Tonal, tonal
+from pipeline.physics.signals.noise_events import Broadband, Tonal, clipped, tonal
 from pipeline.physics.signals.occurrence import Conditions, even_edges, occurrence
+from pipeline.physics.signals.overload import overload
 from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, Loudest
 from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
@@ -78,12 +79,15 @@ def _table(product):
     writer.writerow(("run", "channel", "kind", "frequency / Hz", "lowest / Hz", "highest / Hz", "level / dB",
                      "start / s", "duration / s", "order",
                      *(f"{name} / {CONDITIONS[name][1]}" for name in product.condition),
+                     *(("level is a lower bound",) if product.record_overload.any() else ()),
                      *(("mode", "mode / Hz") if len(product.mode_name) else ())))
     for k, record in enumerate(product.event_record):
         writer.writerow((product.record_run[record], product.record_channel[record], product.event_kind[k],
                          *(f"{getattr(product, f'event_{name}')[k]:.6g}" for name in _FIELDS[1:7]),
                          product.event_order[k], *(f"{value:.6g}" if known else "" for value, known in zip(
                              product.event_condition[k], product.event_condition_known[k], strict=True)),
+                         *((("yes" if product.record_overload[record] else "no"),)
+                           if product.record_overload.any() else ()),
                          *((product.mode_name[mode], f"{product.mode_frequency[mode]:.6g}")
                            if (mode := product.event_mode[k]) >= 0 else ())))
     return stream.getvalue()
@@ -111,7 +115,9 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
     the level of the band without its strongest lines. Tones below the band are told from {low_threshold} dB on, not
     weighted; accelerometers from {vibration_threshold} on. No standard fixes the last two, nor the shortest event.
     Where modes are given, an event is near one if their frequencies differ by at most {near}. Maps tell the share of
-    the recorded time with squeal in bins of two conditions, over all runs that know both.
+    the recorded time with squeal in bins of two conditions, over all runs that know both. Levels of a record whose
+    samples are held at the end of its range are lower bounds; multiples of its tones that this makes are told as
+    clipping.
     """
     modes = named_modes(settings.modes, settings.modes_file, "noise_events.modes_file")
     tasks = [(name, key, channel, kind) for name, run in recording.runs.items()
@@ -140,7 +146,8 @@ def _kind(name, channel, settings):
 
 
 def _searched(task, settings):
-    """(events, level and frequency of the loudest tone, background level, Spectrogram) of a channel, or why not."""
+    """(events, level and frequency of the loudest tone, background level, Spectrogram, begin, Overload or None) of a
+    channel, or why not."""
     _, _, channel, kind = task
     rate, samples, begin = float(channel.rate), Slices(channel.samples), float(channel.begin)
     top = min(settings.highest_frequency, 0.45 * rate)
@@ -154,10 +161,12 @@ def _searched(task, settings):
     loudest, picture = Loudest(found, detector), _Picture(found, detector, top)
     found.scan(tones, noise, loudest, picture)
     events = tones.result() + (noise.result() if kind == "sound" else [])
+    cut = overload(lambda: blocks(channel.samples))
     if len(samples) >= 3 * settings.low_window * rate:
         slow = _low_detector(settings, kind, rate)
         events += tonal(frames(samples, rate, slow, np.float32), slow, settings.wander, low=True)
-    return events, loudest.result(), noise.background(), picture.result(begin), begin
+    return (clipped(events, cut, rate, 1.0 / settings.window), loudest.result(), noise.background(),
+            picture.result(begin), begin, cut)
 
 
 def _detector(settings, kind, band):
@@ -227,6 +236,8 @@ def _product(kept, recording, modes, settings):
         record_duration=[len(channel.samples) / float(channel.rate) for (_, _, channel, _), _ in kept],
         record_peak=[result[1][0] for _, result in kept], record_peak_frequency=[result[1][1] for _, result in kept],
         record_background=[result[2] for _, result in kept],
+        record_overload=[result[5].share if result[5] else 0.0 for _, result in kept],
+        record_range=[result[5].limit if result[5] else 0.0 for _, result in kept],
         maps=_maps(kept, conditions, settings.bins), listen=_listen(kept),
         spectrogram={f"{name}.{key}": result[3] for (name, key, *_), result in kept},
         event_record=[k for k, _ in rows], event_condition=values, event_condition_known=known,
@@ -238,7 +249,8 @@ def _product(kept, recording, modes, settings):
 def _listen(kept):
     """{'squeal': Excerpt} of the loudest squeal, of a microphone if any heard one; {} without squeal."""
     squeal = [(kind == "sound", event.level, event, name, key, channel, begin)
-              for (name, key, channel, kind), (events, *_, begin) in kept for event in events if event.kind == "squeal"]
+              for (name, key, channel, kind), (events, _, _, _, begin, _) in kept
+              for event in events if event.kind == "squeal"]
     if not squeal:
         return {}
     *_, event, name, key, channel, begin = max(squeal, key=lambda row: row[:2])
@@ -301,7 +313,7 @@ def _course(run, kept, conditions):
     Squeal is that of microphones, or of accelerometers where no run has a microphone.
     """
     sound = any(kind == "sound" for (*_, kind), _ in kept)
-    records = [(channel, events, begin) for (name, _, channel, kind), (events, *_, begin) in kept
+    records = [(channel, events, begin) for (name, _, channel, kind), (events, _, _, _, begin, _) in kept
                if name == run and (kind == "sound" or not sound)]
     ends = [begin + len(channel.samples) / float(channel.rate) for channel, _, begin in records]
     first = min((begin for *_, begin in records), default=0.0)

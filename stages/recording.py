@@ -9,6 +9,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
 from pipeline.contract.units import in_si
+from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
 from pipeline.recordings.friction import measured_friction
@@ -208,6 +209,10 @@ def recording(settings: Settings, context: Context) -> Recording:
         imported.add(READ[file.kind](file, imported), f"{file.file}")
         source.append(f"{file.file.name} {digest(file.file)}")
     _check_repeats(imported.runs)
+    for name, run in imported.runs.items():
+        for key, one in run.channels.items():
+            if told := overload_told(one):
+                imported.tell(f"{name}, {key}: {told}")
     context.log(f"{len(imported.runs)} runs: {', '.join(imported.runs)}")
     return Recording(source=source, remarks=imported.remarks, runs=imported.runs)
 

@@ -6,6 +6,8 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.contract.errors import first_of
+from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.physics.signals import frequency_response as estimate
 from pipeline.products import Recording, ResponseFunctions, TestResponses
 from pipeline.recordings.samples import place_of
@@ -27,13 +29,31 @@ class Settings(Section):
                                              " the one that moves most")
     resolution: Quantity("Hz", gt=0) | None = option(None, "distance of the lines; none = 16 segments of the record,"
                                                      " of motions alone a tenth of it; of blows it follows from them")
+    phase: Literal["auto", "as_given", "conjugate"] = option(
+        "auto", "sign of the phases of given responses; conjugate: the file has them in exp(-i w t), or S_fx for S_xf;"
+        " auto: conjugate where responses would come before their force")
+    window_decay: Quantity("1/s", gt=0) | None = option(
+        None, "rate r of the exponential window exp(-r t) under which given responses were measured; it is taken off"
+        " the decay rates of all modes; none = no window")
+    window_end: float | None = option(None, "the same by the value of the window at the end of its frame, whose length"
+                                      " is the inverse of the distance of the lines", gt=0, lt=1)
     rebound: Quantity("s", gt=0) = option("100 ms", "a second pulse within this time makes it a blow struck twice")
 
 
+#: responses that are named in a sentence
+_NAMED = 4
 _FORCE, _MOTIONS = "N", ("m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")
 
 
-@stage
+def _check(sections):
+    """Refuse a window that is stated twice."""
+    settings = sections["response_functions"]
+    if settings.window_decay is not None and settings.window_end is not None:
+        raise ConfigError("response_functions.window_end", "one of window_decay and window_end", "both",
+                          "state the window once")
+
+
+@stage(check=_check)
 def response_functions(recording: Recording, settings: Settings, context: Context) -> ResponseFunctions:
     """Take frequency responses from the recording, or estimate them from records of force and motion.
 
@@ -43,7 +63,9 @@ def response_functions(recording: Recording, settings: Settings, context: Contex
     weighed by exp(-r t) where the motion does not decay by itself; r is taken off the decay rates again. Blows struck
     twice within {rebound}, clipped or cut off are left out. Without a measured force correlation functions with the
     references stand for the responses: their poles are those of the structure under a wide-band force, and its
-    harmonics, where it has some, look like modes without damping.
+    harmonics, where it has some, look like modes without damping. Responses that a file gives are taken as they are,
+    or conjugate where their inverse transform shows that they would come before their force; a window that the case
+    states is taken off the decay rates.
     """
     strange = sorted(set(settings.runs) - set(recording.runs))
     if strange:
@@ -51,6 +73,9 @@ def response_functions(recording: Recording, settings: Settings, context: Contex
     chosen = settings.runs or [name for name, run in recording.runs.items() if run.frf] or list(recording.runs)
     items = [(name, recording.runs[name]) for name in chosen]
     tests = context.map(partial(_of_run, settings=settings), items, "frequency responses")
+    for name, test in zip(chosen, tests, strict=True):
+        for told in (*test.remark, *(f"left out: {blow}" for blow in test.left_out)):
+            context.log(f"{name}: {told}")
     if settings.together and len(tests) > 1:
         if any(str(one.method) == METHODS["blows"] for one in tests):
             tests = context.map(partial(_of_run, settings=settings, window=_common_window(tests)), items, "one window")
@@ -69,7 +94,7 @@ def _of_run(item, settings, window=(None, None)):
     name, run = item
     where = f"response_functions: {name}"
     if run.frf:
-        return _given(where, run)
+        return _given(where, run, settings)
     forces = _channels(where, run, settings.force, (_FORCE,), "force")
     motions = _channels(where, run, settings.motion, _MOTIONS, "motion")
     method = settings.method
@@ -98,7 +123,12 @@ def _test(found, method, motions, references, unit, link):
         place=[place_of(motion, motions[motion]) for motion, _ in keys],
         reference=[place_of(reference, references[reference]) for _, reference in keys], method=method,
         averages=[found.averages], left_out=[f"{time:.4g} s: {why}" for time, why in found.left_out],
-        decay=found.decay)
+        decay=found.decay, remark=_overloaded({**references, **motions}) if method != METHODS["blows"] else [])
+
+
+def _overloaded(channels):
+    """Remarks on channels of a lasting record that are held at the end of their range; blows that are were left out."""
+    return [f"{name}: {told}" for name, one in channels.items() if (told := overload_told(one))]
 
 
 def _estimated(where, method, forces, motions, settings, rate, window):
@@ -131,17 +161,51 @@ def _from_motions(where, motions, settings, rate):
                  "{motion}*{reference}*s", "with")
 
 
-def _given(where, run):
+def _given(where, run, settings):
     """TestResponses of the frequency responses that a run holds."""
     axes = {tuple(np.round(f.frequency, 9)) for f in run.frf.values()}
     if len(axes) > 1:
         raise ConfigError(where, "frequency responses on one frequency axis", f"{len(axes)} axes")
     line = np.asarray(next(iter(run.frf.values())).frequency, float)
+    response, remark = _turned(where, run.frf, settings.phase)
     return TestResponses(
-        line=line, response=np.array([f.response for f in run.frf.values()]), coherence=np.empty((0, len(line))),
+        line=line, response=response, coherence=np.empty((0, len(line))),
         label=list(run.frf), unit=[str(f.unit) for f in run.frf.values()],
         place=[str(f.place) or key for key, f in run.frf.items()],
-        reference=[str(f.reference) for f in run.frf.values()], method="given", averages=[0], left_out=[], decay=0.0)
+        reference=[str(f.reference) for f in run.frf.values()], method="given", averages=[0], left_out=[],
+        decay=_window(line, settings), remark=remark)
+
+
+def _turned(where, given, phase):
+    """(responses (n, f) of FrequencyResponses ``given`` {name: one}, with phases that follow the force; remarks)."""
+    response = np.array([one.response for one in given.values()])
+    sense = estimate.sense_of_phase(response)
+    sizes = [name for name, one in zip(given, sense, strict=True) if np.isnan(one)]
+    if sizes:
+        raise ConfigError(where, "complex responses", f"values of one phase, such as sizes alone, in"
+                          f" {first_of(sizes, _NAMED)}",
+                          "damping and shapes need the phase: export real and imaginary parts, or size and phase")
+    turned = [name for name, one in zip(given, sense, strict=True) if one < 0]
+    if phase == "conjugate":
+        return response.conj(), ["phases were turned, as the case says: the conjugate of each response is used"]
+    if phase == "as_given":
+        return response, []
+    if turned and np.any(sense > 0):
+        raise ConfigError(where, "phases of one sign", f"the opposite sign in {first_of(turned, _NAMED)}: they would"
+                          " come before their force", "export all responses alike, or choose runs of one sign")
+    if turned:
+        return response.conj(), ["phases have the opposite sign, as of exp(-i w t) or S_fx for S_xf: responses would"
+                                 " come before their force, so the conjugate of each is used; response_functions.phase"
+                                 " as_given leaves them"]
+    return response, [] if sense.any() else [
+        "the sign of the phases does not show, as lines are too far apart, or noise prevails: it is taken as given"]
+
+
+def _window(line, settings):
+    """Decay rate in 1/s of the exponential window that the case states of given responses."""
+    if settings.window_end is None:
+        return settings.window_decay or 0.0
+    return float(-np.log(settings.window_end) * (line[1] - line[0]))
 
 
 def _channels(where, run, asked, units, kind):
@@ -193,5 +257,6 @@ def _joined(tests):
         coherence=np.concatenate(coherence), unit=listed("unit"), place=listed("place"),
         reference=listed("reference"), label=[f"{run}: {label}" for run, one in tests.items() for label in one.label],
         method=", ".join(dict.fromkeys(str(one.method) for one in every)), decay=decays[0],
-        averages=np.concatenate([one.averages for one in every]),
+        averages=np.concatenate([one.averages for one in every]), remark=list(dict.fromkeys(
+            f"{run}: {told}" for run, one in tests.items() for told in map(str, one.remark))),
         left_out=[f"{run}, {told}" for run, one in tests.items() for told in one.left_out])

@@ -53,7 +53,7 @@ class _Advance(context.Progress):
 
 
 class Bars:
-    """Progress bars of one run; silent if ``console`` is not a terminal."""
+    """Progress bars of one run; lines alone if ``console`` is not a terminal."""
 
     def __init__(self, console=None):
         self.console = console or Console(stderr=True)

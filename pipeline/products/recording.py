@@ -148,7 +148,7 @@ class Recording:
     runs: dict[str, Run] = parts("runs by name")
 
 
-@product(version=1)
+@product(version=2)
 class TestResponses:
     """Frequency responses of one test, given or estimated from records, on one frequency axis."""
 
@@ -163,9 +163,10 @@ class TestResponses:
     averages: Array = count("record", "segments or blows of each record, 0 where given")
     left_out: Array = text("blow", "blows that were left out, when and why")
     decay: Array = quantity("1/s", "", "what windows add to every decay rate")
+    remark: Array = text("remark", "what was changed of responses as given, or cannot be told of them, in sentences")
 
 
-@product(version=1)
+@product(version=2)
 class ResponseFunctions:
     """Frequency responses of every test of a recording."""
 

@@ -87,7 +87,7 @@ class OccurrenceMap:
 OWN_TONES = ("squeal", "moan", "groan", "judder")
 
 
-@product(version=4)
+@product(version=5)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""
 
@@ -100,9 +100,11 @@ class NoiseEvents:
     record_peak: Array = quantity("1", "record", "level of the loudest tone in the band, dB(A) re 20 uPa; of vibration dB re 1e-6 m/s^2")
     record_peak_frequency: Array = quantity("Hz", "record", "its frequency")
     record_background: Array = quantity("1", "record", "median level of the band, in the same way")
+    record_overload: Array = quantity("1", "record", "share of the samples at the end of the range of the instrument, 0 of none; with any, levels are lower bounds")
+    record_range: Array = quantity("1", "record", "that end, Pa or m/s^2; 0 where it is not reached")
     condition: Array = text("condition", "conditions of events: pressure (Pa), speed (rad/s), temperature (K)")
     event_record: Array = count("event", "record of the event")
-    event_kind: Array = text("event", "squeal, harmonic, sweep, series, broadband; below the band judder, groan, moan or series")
+    event_kind: Array = text("event", "squeal, harmonic, clipping (harmonic of an overloaded tone), sweep, series, broadband; below the band judder, groan, moan or series")
     event_frequency: Array = quantity("Hz", "event", "mean frequency by power")
     event_lowest: Array = quantity("Hz", "event", "lowest frequency of its course")
     event_highest: Array = quantity("Hz", "event", "highest frequency of its course")

@@ -121,7 +121,7 @@ def given(places, references, line, response):
     return ResponseFunctions(tests={"hammer": TestResponses(
         line=line, response=response, coherence=np.empty((0, len(line))), label=places,
         unit=["m/s^2/N"] * len(places), place=places, reference=references, method="given", averages=[0], left_out=[],
-        decay=0.0)})
+        decay=0.0, remark=[])})
 
 
 def responses(names, frequency, motion, struck, line, damping=0.004, noise=0.01):

@@ -41,7 +41,8 @@ def hammered(error=2e-5, noise=0.01, split=5e-4):
         chosen=empty.astype(int))
     responses = products.TestResponses(
         line=line, response=np.ones((9, 3), complex), coherence=np.empty((0, 3)), label=PLACE, unit=["m/s^2/N"] * 9,
-        place=PLACE, reference=PLACE[:1] * 9, method="given", averages=[0], left_out=[], decay=0.0)
+        place=PLACE, reference=PLACE[:1] * 9, method="given", averages=[0], left_out=[], decay=0.0,
+        remark=[])
     return ResponseFunctions(tests={"hammer": responses}), ModalTest(runs={"hammer": test})
 
 

@@ -196,3 +196,26 @@ def test_a_condition_is_averaged_in_parts(monkeypatch):
     whole = noise_events(recorded(), settings=Settings()).event_condition
     monkeypatch.setattr("stages.noise_events._AT_ONCE", 10)
     np.testing.assert_allclose(noise_events(recorded(), settings=Settings()).event_condition, whole, rtol=1e-12)
+
+
+@pytest.mark.parametrize("ends, level", [((-1.0, 1.0), 2.5), ((-9.0, 1.0), 2.5), ((-1.0, 1.0), 8.0)])
+def test_harmonics_of_an_overloaded_tone_are_clipping(ends, level):
+    """Cut at one end and at both, a little and nearly to a square, whose multiples fold down; uncut: a squeal."""
+    free = level * np.sin(2 * np.pi * 3137.3 * T) + 10 * NOISE
+    runs = {name: run({"mic": channel(samples, "Pa", "sound_pressure", RATE, 0.0, "mic")}) for name, samples in (
+        ("cut", np.clip(free, *ends)), ("free", free))}
+    result = noise_events(Recording(source=[], runs=runs), settings=Settings())
+    kinds = [result.event_kind[result.event_record == k].tolist() for k in (0, 1)]
+    assert kinds[1] == ["squeal"] and kinds[0].count("squeal") == 1 and set(kinds[0]) == {"squeal", "clipping"}
+    assert result.record_overload[0] > 0.3 > result.record_overload[1] == 0.0
+    assert result.record_range.tolist() == [1.0, 0.0]
+    rows = companions(result)["noise_events.csv"].splitlines()
+    assert rows[0].endswith("level is a lower bound") and rows[1].endswith("yes") and rows[-1].endswith("no")
+
+
+def test_a_squeal_beside_an_overloaded_tone_stays_one():
+    loud = np.clip(3.0 * np.sin(2 * np.pi * 2900.0 * T) + 0.3 * np.sin(2 * np.pi * 7350.0 * T) + 10 * NOISE, -2, 2)
+    result = noise_events(Recording(source=[], runs={"a": run({"mic": channel(
+        loud, "Pa", "sound_pressure", RATE, 0.0, "mic")})}), settings=Settings())
+    squeal = result.event_frequency[result.event_kind == "squeal"]
+    assert np.any(abs(squeal - 7350) < 2) and np.any(abs(squeal - 2900) < 2)

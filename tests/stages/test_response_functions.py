@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.products import FrequencyResponse, Recording, Run
@@ -12,8 +13,8 @@ from stages.response_functions import Settings, response_functions
 from tests.physics.signals.test_frequency_response import DAMPING, FREQUENCY, RATE, SHAPE, hammered, moved
 
 LINE = np.arange(0.0, 200.0)
-GIVEN = {f"p{k}": FrequencyResponse(frequency=LINE, response=np.ones(200), unit="m/N", place=f"node {k} direction 3",
-                                    reference="node 1 direction 3") for k in range(2)}
+GIVEN = {f"p{k}": FrequencyResponse(frequency=LINE, response=1.0 / (60.0 - LINE + 2j + k), unit="m/N",
+                                    place=f"node {k} direction 3", reference="node 1 direction 3") for k in range(2)}
 
 
 def run(force, motion, places=("a", "b", "c"), unit="N", **more):
@@ -92,7 +93,96 @@ def test_what_gives_no_responses_is_refused(settings, made, told):
 
 
 def test_runs_on_other_axes_are_not_one_test():
-    coarse = {"p": FrequencyResponse(frequency=2 * LINE, response=np.ones(200), unit="m/N", place="", reference="")}
+    coarse = {"p": FrequencyResponse(frequency=2 * LINE, response=GIVEN["p0"].response, unit="m/N", place="",
+                                     reference="")}
     with pytest.raises(ConfigError, match="runs on one frequency axis, found 2 axes"):
         responses({"together": True}, one=Run(description="", repeat_of="", frf=GIVEN),
                   two=Run(description="", repeat_of="", frf=coarse))
+
+
+def measured(rows, line, unit="m/N"):
+    """A run of given responses."""
+    return Run(description="", repeat_of="", frf={f"p{k}": FrequencyResponse(
+        frequency=line, response=row, unit=unit, place=f"node {k} direction 3", reference="node 0 direction 3")
+        for k, row in enumerate(rows)})
+
+
+def swapped(line):
+    """Accelerances by spectra of SciPy, the conjugate of the force with that of the motion interchanged."""
+    force = np.random.default_rng(2).standard_normal(int(60 * RATE))
+    spectra = [scipy.signal.csd(row, force, RATE, nperseg=int(RATE))[1] for row in moved(force)]
+    power = scipy.signal.welch(force, RATE, nperseg=int(RATE))[1]
+    return [row / power for row in spectra], np.arange(len(power), dtype=float)
+
+
+def other_exponent(line):
+    """Receptances by the inverse of NumPy's transform, which has the other sign."""
+    force, motion = hammered([0.1], 2.0, 4)
+    return np.fft.ifft(motion)[:, :2 * len(line)] / np.fft.ifft(force)[:2 * len(line)], np.fft.fftfreq(
+        len(force), 1 / RATE)[:2 * len(line)]
+
+
+def written(line):
+    """Mobilities by their formula in exp(-i w t)."""
+    omega = 2 * np.pi * line[:, None]
+    natural = 2 * np.pi * FREQUENCY
+    return [np.sum(-1j * omega * row * SHAPE[:, 0] / (natural**2 - omega**2 - 2j * DAMPING * natural * omega), axis=1)
+            for row in SHAPE.T], line
+
+
+@pytest.mark.parametrize("made", [swapped, other_exponent, written])
+def test_phases_of_the_opposite_sign_are_turned_and_told(made):
+    rows, line = made(np.arange(1.0, 1500.0))
+    test = responses(file=measured(rows, line))["file"]
+    np.testing.assert_array_equal(test.response, np.conj(rows))
+    assert "opposite sign" in str(test.remark[0]) and "conjugate of each is used" in str(test.remark[0])
+    modes = modal_test(type("Given", (), {"tests": {"file": test}})(), settings=ModalSettings(
+        lowest_frequency="100 Hz", highest_frequency="1.2 kHz")).runs["file"]
+    near = [int(abs(modes.frequency - f).argmin()) for f in FREQUENCY]
+    np.testing.assert_allclose(modes.frequency[near], FREQUENCY, rtol=2e-3)
+    right = responses(file=measured(np.conj(rows), line))["file"]
+    np.testing.assert_array_equal(right.response, test.response)
+    assert not len(right.remark)
+
+
+def test_the_case_rules_the_phase_and_mixed_signs_are_refused():
+    rows, line = written(np.arange(1.0, 1500.0))
+    kept = responses({"phase": "as_given"}, file=measured(rows, line))["file"]
+    np.testing.assert_array_equal(kept.response, rows)
+    turned = responses({"phase": "conjugate"}, file=measured(np.conj(rows), line))["file"]
+    np.testing.assert_array_equal(turned.response, rows)
+    with pytest.raises(ConfigError, match="phases of one sign, found the opposite sign in p1: they would come before"):
+        responses(file=measured([np.conj(rows[0]), rows[1]], line))
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.5 * np.pi, 0.3])
+def test_sizes_or_parts_alone_are_refused(phase):
+    rows, line = written(np.arange(1.0, 1500.0))
+    with pytest.raises(ConfigError, match="complex responses, found values of one phase, such as sizes alone, in p0"):
+        responses(file=measured(np.abs(rows) * np.exp(1j * phase), line))
+
+
+def test_a_sign_that_does_not_show_is_told():
+    random = np.random.default_rng(0)
+    rows = random.standard_normal((2, 500)) + 1j * random.standard_normal((2, 500))
+    assert "does not show" in str(responses(file=measured(rows, np.arange(500.0)))["file"].remark[0])
+
+
+@pytest.mark.parametrize("settings", [{"window_decay": "12 1/s"}, {"window_end": float(np.exp(-12.0 * 2.0))}])
+def test_the_window_of_given_responses_is_taken_off_the_damping(settings):
+    """A front end of two seconds under exp(-12 t): spectra of the weighed records, as a file gives them."""
+    force, motion = hammered([0.0], 2.0, 4)
+    weight = np.exp(-12.0 * np.arange(len(force)) / RATE)
+    rows, line = np.fft.rfft(motion * weight) / np.fft.rfft(force * weight), np.fft.rfftfreq(len(force), 1 / RATE)
+    band = line < 2e3
+
+    def modes(given):
+        tests = responses(given, file=measured(rows[:, band], line[band]))
+        return modal_test(type("Given", (), {"tests": tests})(), settings=ModalSettings(
+            lowest_frequency="100 Hz", highest_frequency="1.2 kHz")).runs["file"]
+
+    right, wrong = modes(settings), modes({})
+    np.testing.assert_allclose(right.damping_ratio, DAMPING, rtol=0.02)
+    np.testing.assert_allclose(wrong.damping_ratio - right.damping_ratio, 12.0 / (2 * np.pi * FREQUENCY), rtol=0.02)
+    with pytest.raises(ConfigError, match="decay rates above that of the window, 100 1/s"):
+        modes({"window_decay": "100 1/s"})

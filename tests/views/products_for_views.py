@@ -163,7 +163,8 @@ def response_functions(known=True):
         line=line, response=response, coherence=np.full((4, 200), 0.98) if known else np.empty((0, 200)),
         label=[f"x_{k}" for k in range(4)], unit=["m/N"] * 4, place=[f"node {k} direction 3" for k in range(4)],
         reference=["node 0 direction 3"] * 4, method="blows" if known else "given", averages=[2 if known else 0],
-        left_out=["2.1 s: struck twice"] if known else [], decay=3.5 if known else 0.0)})
+        left_out=["2.1 s: struck twice"] if known else [], decay=3.5 if known else 0.0,
+        remark=[] if known else ["phases have the opposite sign"])})
 
 
 def noise_events(quiet=False):
@@ -182,6 +183,7 @@ def noise_events(quiet=False):
         NoiseEvents, threshold=70.0, band=[2e3, 16e3], record_run=["stop_1", "stop_1", "stop_2"],
         record_channel=["mic", "pad", "mic"], record_kind=["sound", "vibration", "sound"], record_duration=[10.0] * 3,
         record_peak=[89.0, 149.0, 78.0], record_peak_frequency=[2780.0, 2780.0, 7340.0], record_background=[62.0] * 3,
+        record_overload=[0.0] * 3, record_range=[0.0] * 3,
         condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
         event_highest=1.001 * events["event_frequency"], **events, mode_name=["umbrella", "mode 7"],
         mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03,

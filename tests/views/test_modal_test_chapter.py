@@ -33,7 +33,7 @@ def test_damping_of_narrow_peaks_is_doubted():
     known = small.modal_test()
     assert "too large" not in chapter(known, LOOK).conclude
     modes = replace(known.runs["hammer"], narrow=np.array([1, 1, 0]))
-    assert "The damping of 2 modes comes out too large: fewer than eight lines" in chapter(
+    assert "The damping of 2 modes comes out too large: fewer than four lines" in chapter(
         ModalTest(runs={"shaker": modes}), LOOK).conclude
 
 

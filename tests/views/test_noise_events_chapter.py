@@ -96,3 +96,17 @@ def test_the_loudest_squeal_can_be_heard():
     assert sound.data[:4] == b"RIFF" and "as recorded (squeal.wav): run stop_1, mic, from 1.25 s on" in told
     assert told.endswith("full scale is 0.02 Pa.")
     assert not chapter(small.noise_events(quiet=True), LOOK).sounds
+
+
+def test_overload_is_told_on_the_first_screen_and_levels_are_lower_bounds():
+    product = small.noise_events()
+    cut = replace(product, record_overload=np.array([0.12, 0.0, 0.0]), record_range=np.array([20.0, 0.0, 0.0]),
+                  event_kind=np.where(product.event_kind == "harmonic", "clipping", product.event_kind))
+    assert plain(headline(cut)[0]).endswith("loudest at 2.78 kHz; overloaded, levels are lower bounds")
+    told = plain(conclusion(cut))
+    assert "The loudest: at least 89 dB(A)" in told and "1 of clipping" in told
+    assert "lower bounds: run stop_1, mic: 12 % of the samples stand at 20 Pa. Multiples of its tones" in told
+    events, records = chapter(cut, LOOK).tables
+    assert [row[4] for row in events.rows if row[1] == "mic"][0] == "≥ 89" and records.rows[0][2] == "≥ 89"
+    quiet = replace(small.noise_events(quiet=True), record_overload=np.array([0.0, 0.0, 0.2]))
+    assert headline(quiet) == ("No squeal in 2 runs; overloaded, levels are lower bounds", "warning")

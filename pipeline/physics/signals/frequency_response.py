@@ -33,6 +33,11 @@ _RARELY = 0.02
 _AVERAGES = 16
 #: lengths of the correlations that a record of motions alone holds, at least
 _LONGER = 10
+#: share of the power of a response with another phase below which it has one phase alone
+_ONE_PHASE = 1e-9
+#: part of the band over which its size is smoothed, inverse widths of the band next to 0 s that do not count, and by
+#: how much more power comes on one side of it than on the other where that is clear
+_BROAD, _NEAR, _CLEARLY = 16, 3, 2.0
 
 
 @dataclass(frozen=True)
@@ -198,3 +203,22 @@ def from_motions(motion, references, rate, resolution=None):
     response = np.array([np.fft.rfft(np.fft.irfft(spectrum * spectrum[ref].conj(), length)[:, :size] * window) / rate
                          for ref in references])
     return Estimated(np.fft.rfftfreq(size, 1 / rate), np.swapaxes(response, 0, 1), None, count // size, decay)
+
+
+def sense_of_phase(response):
+    """(n,) of ``response`` (n, f) at even frequencies: 1 where it follows its force, -1 where it would precede it
+    (phases of the opposite sign), 0 where it cannot be told, NaN where all values have one phase, as sizes alone have.
+
+    Told by the inverse transform over the band, each response over its smoothed size: what comes before the force and
+    what comes after it. Beside 0 s, where the ends of the band show, nothing counts.
+    """
+    response = np.asarray(response, complex)
+    power = np.sum(abs(response) ** 2, axis=1)
+    one_phase = abs(np.sum(response**2, axis=1)) >= (1.0 - _ONE_PHASE) * power
+    count = response.shape[1]
+    size = scipy.ndimage.uniform_filter1d(abs(response), max(count // _BROAD, 3))
+    pulse = abs(np.fft.ifft(response / np.maximum(size, 1e-300) * np.hanning(count))) ** 2
+    half = (count + 1) // 2
+    after, before = pulse[:, _NEAR:half].sum(axis=1), pulse[:, count - half + 1:count - _NEAR + 1].sum(axis=1)
+    sense = (after > _CLEARLY * before).astype(float) - (before > _CLEARLY * after)
+    return np.where(one_phase & (power > 0.0), np.nan, sense)

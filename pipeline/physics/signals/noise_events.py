@@ -11,6 +11,8 @@ from pipeline.physics.signals.spectra import level
 from pipeline.physics.signals.squeal_detector import Search
 
 SQUEAL, HARMONIC, SWEEP, SERIES, BROADBAND = "squeal", "harmonic", "sweep", "series", "broadband"
+#: harmonics that an overloaded instrument makes of a tone
+CLIPPING = "clipping"
 #: names of steady tones below the squeal band, and the frequency [Hz] up to which each goes
 LOW = ((100.0, "judder"), (500.0, "groan"), (np.inf, "moan"))
 #: where a tone begins and ends: so far below the median level of its course [dB]. A frame of which half lies in a
@@ -24,6 +26,9 @@ _ENDS, _BANDWIDTH = 0.1, 1.5
 _BELOW = 10.0
 #: how much fainter moving tones may be that make a steady one part of theirs [dB], and instants that are asked
 _AS_LOUD, _GRID = 15.0, 50
+#: multiples of a tone that clipping makes, the n-th at most 1/n of it but for what the weighting differs [dB], and
+#: their largest distance from it, n times, in lines
+_MULTIPLES, _WEIGHTED, _OFF = 25, 9.0, 0.1
 #: strongest lines of a frame that do not count as noise without a tone
 _TONES = 12
 
@@ -81,6 +86,29 @@ def _among(event, moving):
         if other.start < end and other.start + other.duration > event.start and other.level > event.level - _AS_LOUD:
             covered |= (time >= other.start) & (time <= other.start + other.duration)
     return covered.mean() > 0.5
+
+
+def clipped(events, overload, rate, spacing):
+    """[NoiseEvent] with those named that clipping made of others: multiples of a louder tone while samples of the
+    record stand at the end of its range, folded down where they pass half the ``rate`` [Hz].
+
+    ``overload``: Overload of the record, or None; ``spacing`` [Hz] of the lines. Cut at both ends, multiples are odd.
+    """
+    if overload is None:
+        return events
+    orders = np.arange(3, _MULTIPLES + 1, 2) if overload.low and overload.high else np.arange(2, _MULTIPLES + 1)
+    loud = [event for event in events if event.kind not in (BROADBAND, SWEEP)
+            and overload.during(event.start, event.start + event.duration, rate)]
+
+    def made(event, of):
+        apart = abs(event.frequency - abs((orders * of.frequency + rate / 2) % rate - rate / 2))
+        most = of.level - 20.0 * np.log10(orders) + _WEIGHTED
+        together = event.start < of.start + of.duration and of.start < event.start + event.duration
+        return together and event.level < of.level and np.any(
+            (apart < _OFF * spacing * orders) & (event.level < most))
+
+    return [replace(event, kind=CLIPPING) if event in loud and any(made(event, of) for of in loud if of is not event)
+            else event for event in events]
 
 
 class Broadband:

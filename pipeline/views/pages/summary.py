@@ -13,6 +13,7 @@ from pipeline.views.chapters.bench import (
     model_update,
     noise_events,
     orders,
+    response_functions,
 )
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models import countermeasures, matrix_modes, noise_matrix, sensitivities
@@ -54,13 +55,15 @@ def verdict(products, tuned_settings, ahead=()):
     for name, told in (("friction_update", measured_friction), ("model_update", model_update),
                        ("matrix_modes", matrix_modes)):
         if products.get(name) is not None:
-            answers = (*told.note(products[name]), ("Tuned", _tuned(products, tuned_settings)))
+            answers = (*told.note(products[name]), ("Measured", _measured(products)),
+                       ("Tuned", _tuned(products, tuned_settings)))
             return Verdict(*told.headline(products[name]), tuple(filter(lambda a: a[1], answers)),
                            tuple(_facts(products)))
     if products.get("noise_matrix") is not None:
         return _of_matrix(products["noise_matrix"], products, tuned_settings)
     headline, tone = _headline(products, ahead)
-    answers = [("Where", _where(products), "limit_cycle"), ("Why", _why(products), "complex_modes"),
+    answers = [("Measured", _measured(products), ""), ("Where", _where(products), "limit_cycle"),
+               ("Why", _why(products), "complex_modes"),
                ("How likely", _likely(products), "probability"),
                ("What to change", _matters(products), "sensitivities"),
                ("What helps", _helps(products), "countermeasures"),
@@ -194,6 +197,12 @@ def _where(products):
             f" re {quantity(squeal.reference, 'm/s', 3)} at {quantity(squeal.peak_frequency[operating, sensor], 'Hz')},"
             f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB."
             f"{_harmonics(squeal, squeal.peak_frequency[operating, sensor])}")
+
+
+def _measured(products):
+    """What is to be known of the measurement beside its modes."""
+    given = products.get("response_functions")
+    return "" if given is None else response_functions.remarks(given)
 
 
 def _harmonics(squeal, peak):

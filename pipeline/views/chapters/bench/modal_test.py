@@ -53,7 +53,7 @@ def _sentence(name, modes):
             f" {span(100 * modes.damping_ratio, '1', 2)} % to {damping} of themselves (medians). The modes leave"
             f" {percent(np.median(modes.noise), 2)} of a response.")
     if modes.narrow.any():
-        told += (f" The damping of {plural(int(modes.narrow.sum()), 'mode')} comes out too large: fewer than eight"
+        told += (f" The damping of {plural(int(modes.narrow.sum()), 'mode')} comes out too large: fewer than four"
                  " lines lie within the peak; take a finer response_functions.resolution, and a longer record.")
     return told + (f" {plural(pairs, 'pair')} of modes {'is' if pairs == 1 else 'are'} split by"
                    f" {_splits(modes)}." if pairs else "")

@@ -10,6 +10,8 @@ from pipeline.views.pages.sound_file import wav
 
 #: spectrograms and rows that are shown
 _SHOWN, _ROWS = 6, 60
+#: overloaded records that are named
+_OVERLOADED = 4
 #: ratio of frequencies up to which two channels hear one tone
 _ALIKE = 1.01
 _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "temperature"))
@@ -65,11 +67,12 @@ def headline(product):
     if not len(product.record_run):
         return None
     noisy, every = runs(product)
+    cut = "; overloaded, levels are lower bounds" if product.record_overload.any() else ""
     if not noisy:
-        return f"No squeal in {plural(len(every), 'run')}", "quiet"
+        return f"No squeal in {plural(len(every), 'run')}{cut}", "warning" if cut else "quiet"
     loudest = squeals(product)[0]
     return (f"Squeal in {len(noisy)} of {plural(len(every), 'run')}, loudest at"
-            f" {quantity(product.event_frequency[loudest], 'Hz', 3)}", "squeal")
+            f" {quantity(product.event_frequency[loudest], 'Hz', 3)}{cut}", "squeal")
 
 
 def conclusion(product):
@@ -79,23 +82,45 @@ def conclusion(product):
     rows = counted(product)
     noisy, every = runs(product)
     others = {kind: np.count_nonzero(product.event_kind == kind) for kind in pictures.KINDS if kind != "squeal"}
-    beside = ", ".join(f"{count} of {kind}" if kind in ("broadband", "series") else plural(count, kind)
+    beside = ", ".join(f"{count} of {kind}" if kind in ("broadband", "series", "clipping") else plural(count, kind)
                        for kind, count in others.items() if count)
     if not len(rows):
         sound = product.record_kind == "sound"      # levels of sound and of vibration are not compared
         peak = int(np.argmax(np.where(sound | ~sound.any(), product.record_peak, -np.inf)))
         return (f"No steady tone reaches the threshold. The loudest tone in the band has"
-                f" {number(product.record_peak[peak], 3)} {_unit(product, peak)} at"
+                f" {_least(product, peak)}{number(product.record_peak[peak], 3)} {_unit(product, peak)} at"
                 f" {quantity(product.record_peak_frequency[peak], 'Hz', 3)}, run {product.record_run[peak]}."
-                + (f" Told beside: {beside}." if beside else ""))
+                + (f" Told beside: {beside}." if beside else "") + overloaded(product))
     first = rows[0]
     return (f"{plural(len(rows), 'squeal event')} in {len(noisy)} of {plural(len(every), 'run')}"
             f" ({percent(len(noisy) / len(every), 2)}){_heard_by(product)}. The loudest:"
-            f" {number(product.event_level[first], 3)} {_unit(product, product.event_record[first])} at"
+            f" {_least(product, product.event_record[first])}{number(product.event_level[first], 3)}"
+            f" {_unit(product, product.event_record[first])} at"
             f" {quantity(product.event_frequency[first], 'Hz', 4)} for"
             f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
             f"{_at(product, first)}.{_bands(product, rows)}{near_modes(product, rows)}"
-            + (f" Told beside: {beside}." if beside else ""))
+            + (f" Told beside: {beside}." if beside else "") + overloaded(product))
+
+
+def overloaded(product):
+    """What is overloaded, and what that means, in sentences with a space before; '' of nothing."""
+    rows = np.flatnonzero(product.record_overload)
+    if not len(rows):
+        return ""
+    told = "; ".join(f"run {product.record_run[k]}, {product.record_channel[k]}:"
+                     f" {percent(product.record_overload[k], 2)} of the samples stand at"
+                     f" {quantity(product.record_range[k], _range_unit(product, k), 3)}" for k in rows[:_OVERLOADED])
+    more = f"; and {len(rows) - _OVERLOADED} more" if len(rows) > _OVERLOADED else ""
+    made = " Multiples of its tones come from that." if "clipping" in product.event_kind else ""
+    return f" Overloaded at the end of its range, so that levels are lower bounds: {told}{more}.{made}"
+
+
+def _range_unit(product, record):
+    return "Pa" if product.record_kind[record] == "sound" else "m/s^2"
+
+
+def _least(product, record):
+    return "at least " if product.record_overload[record] else ""
 
 
 def _heard_by(product):     # where one squeal may be an event in several channels
@@ -166,7 +191,7 @@ def _maps(product):
 
 def _tables(product):
     rows = tuple((str(product.record_run[r]), str(product.record_channel[r]), str(product.event_kind[k]),
-                  quantity(product.event_frequency[k], "Hz", 4), number(product.event_level[k], 3),
+                  quantity(product.event_frequency[k], "Hz", 4), _level(product, r, product.event_level[k]),
                   quantity(product.event_start[k], "s", 3), quantity(product.event_duration[k], "s", 2),
                   _at(product, k).strip(" ()"), *([nearest_mode(product, k)] if len(product.mode_name) else []))
                  for k in _in_order(product)[:_ROWS] for r in [product.event_record[k]])
@@ -176,12 +201,16 @@ def _tables(product):
         head = ("run", "channel", "kind", "frequency", "level / dB", "begin", "length", "conditions", "nearest mode")
         yield Table(head[:len(rows[0])], rows, title, numeric=(3, 4, 5, 6), wide=(7,), folded=len(rows) > 12)
     peaks = tuple((str(product.record_run[k]), str(product.record_channel[k]),
-                   number(product.record_peak[k], 3), quantity(product.record_peak_frequency[k], "Hz", 4),
+                   _level(product, k, product.record_peak[k]), quantity(product.record_peak_frequency[k], "Hz", 4),
                    number(product.record_background[k], 3), quantity(product.record_duration[k], "s", 3))
                   for k in range(len(product.record_run)))
     if peaks:
         yield Table(("run", "channel", "loudest tone / dB", "at", "background / dB", "length"), peaks, "Records",
                     numeric=(2, 3, 4, 5), folded=len(peaks) > 12)
+
+
+def _level(product, record, value):
+    return f"{'≥ ' if product.record_overload[record] else ''}{number(value, 3)}"
 
 
 def _in_order(product):

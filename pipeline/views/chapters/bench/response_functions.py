@@ -22,6 +22,18 @@ def chapter(product, look):
                    " ".join(_sentence(name, test) for name, test in product.tests.items()), figures, ())
 
 
+def sentence(text):
+    """A remark as a sentence."""
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def remarks(product):
+    """What was changed of given responses, or cannot be told of them, over all tests, in sentences; '' of nothing."""
+    every = [(name, str(one)) for name, test in product.tests.items() for one in test.remark]
+    named = len(product.tests) > 1
+    return " ".join(sentence(f"test {name}: {one}" if named else one) for name, one in every)
+
+
 def _sentence(name, test):
     step, method = test.line[1] - test.line[0], str(test.method)
     told = [f"Test {name}: {plural(len(test.response), 'response')}, lines {quantity(step, 'Hz', 3)} apart, "
@@ -30,7 +42,10 @@ def _sentence(name, test):
         told.append(f", {plural(int(test.averages.sum()), _AVERAGED[method])}")
     if test.decay:
         told.append(f"; windows that add {number(test.decay, 3)} 1/s to every decay rate, which the modes are rid of")
-    told.append(".")
+    elif method == "given":
+        told.append(", without a window; where the front end weighed its records by an exponential one,"
+                    " response_functions.window_decay takes it off the damping ratios")
+    told.append("." + "".join(f" {sentence(str(one))}" for one in test.remark))
     if len(test.coherence):
         strong = np.sqrt(np.mean(abs(test.response) ** 2, axis=0)) >= np.median(abs(test.response))
         told.append(f" Where they are strong, their coherence is {number(np.median(test.coherence[:, strong]), 3)}.")

@@ -18,8 +18,8 @@ from pipeline.views.figures.style import (
 )
 
 #: colours of the kinds that are drawn, in the order of their importance
-KINDS = {"squeal": RED, "harmonic": COLOURS[4], "sweep": COLOURS[5], "series": COLOURS[5], "broadband": FAINT,
-         "moan": COLOURS[2], "groan": COLOURS[2], "judder": COLOURS[2]}
+KINDS = {"squeal": RED, "harmonic": COLOURS[4], "clipping": FAINT, "sweep": COLOURS[5], "series": COLOURS[5],
+         "broadband": FAINT, "moan": COLOURS[2], "groan": COLOURS[2], "judder": COLOURS[2]}
 #: dB that a spectrogram shows
 _RANGE = 60.0
 #: size and zero of the units of the conditions, and their names
