@@ -177,15 +177,17 @@ def in_si(values, unit, where, measures="", line=""):
     return _registry().Quantity(values, reading.unit).to(_for_pint(name)).magnitude, name
 
 
-def read_as(unit, measures=""):
-    """What a ``unit`` is taken for where that is a guess, as "9.80665 m/s^2" of "G"; '' otherwise, and of none."""
+def read_as(unit, measures="", response=False):
+    """What a ``unit``, of a ``response`` per reference or of samples, is taken for where that is a guess, as
+    "9.80665 m/s^2" of "G"; '' otherwise, and of none."""
     try:
-        reading, name = _chosen(unit, "unit", measures)
+        reading, name = _chosen_quotient(unit, "unit") if response else _chosen(unit, "unit", measures)
     except ConfigError:
         return ""
     if not reading.guess:
         return ""
-    return reading.unit if reading.unit in ("degC", "degF") else f"{in_si(1.0, unit, 'unit', measures)[0]:.6g} {name}"
+    return reading.unit if reading.unit in ("degC", "degF") else (
+        f"{_registry().Quantity(1.0, reading.unit).to_base_units().magnitude:.6g} {name}")
 
 
 def _chosen(unit, where, measures="", line=""):
@@ -235,22 +237,26 @@ def _si_of(unit):
 
 def quotient_in_si(values, unit, where, line=""):
     """The same of a quotient such as ``mm/s^2/N``, whose parts keep their names: (values, ``m/s^2/N``)."""
+    whole, name = _chosen_quotient(unit, where, line)
+    return _registry().Quantity(values, whole.unit).to_base_units().magnitude, name
+
+
+def _chosen_quotient(unit, where, line=""):
+    """The same as of ``_chosen`` of a response per reference."""
     import pint
 
     try:
-        found = [(reading.unit, _registry().Quantity(1.0, reading.unit))
+        found = [(reading, _registry().Quantity(1.0, reading.unit))
                  for reading in channel_units.readings(unit, response=True)]
     except (NoUnitError, pint.PintError, *_STUMBLES) as error:
         raise _no_unit(unit, where, line, *error.args[1:2]) from None
-    found = [(spelt, one, _parts_of(channel_units.plain(unit), one)) for spelt, one in found
+    found = [(reading, one, _parts_of(channel_units.plain(unit), one)) for reading, one in found
              if one.dimensionality in _quotients()]
     if not found:
         raise _no_unit(unit, where, line)
     whole, one, parts = next((each for each in found if each[2]), found[0])
-    name = _si_of(whole)
-    if name not in MEASURED:
-        name = parts or f"{one.to_base_units().units:~C}"
-    return _registry().Quantity(values, whole).to_base_units().magnitude, name
+    name = _si_of(whole.unit)
+    return whole, name if name in MEASURED else parts or f"{one.to_base_units().units:~C}"
 
 
 def _parts_of(unit, whole):
