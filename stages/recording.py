@@ -9,7 +9,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
-from pipeline.contract.units import in_si, measured_in
+from pipeline.contract.units import in_si, measured_in, read_as
 from pipeline.physics.signals.spectra import HEARING
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
@@ -18,7 +18,7 @@ from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
 from pipeline.recordings.samples import channel, even_rate, interpolated, on_grid, steady_tone, stretch
 from pipeline.recordings.survey.meanings import split_unit
-from pipeline.recordings.waveform import SPELT, free_name, plain_name
+from pipeline.recordings.waveform import SPELT, plain_name, self_told
 from pipeline.validation.published_facts import load
 
 #: kinds of a calibrator's file by its suffix; any other is sound
@@ -90,6 +90,7 @@ class Waveforms(Section):
     kind: Literal["audio", "tdms", "mdf"]
     file: InputFile = option(..., "the file; measured:NAME for a public one")
     columns: dict[str, Track] = option({}, "channels by name; none = all of the file, under their own names")
+    units: dict[str, str] = option({}, "without columns: unit of a channel where the file says none, or a wrong one")
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none")
     runs: dict[str, Stretch] = option({}, "runs by name: stretches of the record; none = one run, named as the file")
 
@@ -114,7 +115,9 @@ class Uff(Section):
     kind: Literal["uff"] = "uff"
     file: InputFile = option(..., "the file; measured:NAME for a public one")
     run: str = option(..., "name of the run")
-    units: dict[str, str] = option({}, "unit of a response where the file says none")
+    units: dict[str, str] = option({}, "unit of a response where the file says none, or a wrong one")
+    time_unit: str | None = option(None, "unit of the times; none = as the file says, else s")
+    frequency_unit: str | None = option(None, "unit of the frequencies; none = as the file says, else Hz")
     description: str = option("", "what was done")
     repeat_of: str = option("", "run that it repeats")
     conditions: dict[str, Given] = option({}, "conditions by name")
@@ -215,6 +218,12 @@ class _Refused:
     keep_going: bool
     tell: object
 
+    def guessed(self, unit, measures, where):
+        """Tells what a unit is taken for where that is a guess."""
+        guess = read_as(unit, measures)
+        if guess:
+            self.tell(f"{where}: unit {unit!r} is read as {guess}")
+
     def channels(self, makers):
         """{name: Channel} of ``makers`` {name: () -> Channel}."""
         made = {}
@@ -232,6 +241,8 @@ def _from_columns(file, columns, units, refused):
     """Runs of a file of columns, {name: values} and what it says of their {name: unit}."""
     where, found = f"{file.file}", {}
     _refuse_unknown(file, columns, f"{where}: ")
+    for name, w in file.columns.items():
+        refused.guessed(w.unit, w.measures, f"{where}: {name}")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
@@ -254,13 +265,15 @@ def _from_waveforms(file, refused):
     """Runs of a file whose channels have their own rates, and maybe units."""
     where, found = f"{file.file}", waveforms(file.kind, file.file)
     _refuse_unknown(file, found, f"{where}: ")
-    tracks, names = file.columns or _tracks(found, file.sample_rate, where, refused.tell), list(found)
+    tracks, names = file.columns or {name: Track(column=column, unit=unit) for name, (column, unit) in self_told(
+        found, file.units, file.sample_rate, where, refused.tell).items()}, list(found)
     uses = Counter(track.column for track in tracks.values())
 
     def made(name, track):
         uses[track.column] -= 1     # long records: a column is let go once all channels of it are made
         waveform = found[track.column] if uses[track.column] else found.pop(track.column)
-        return _track(track, waveform, file.sample_rate, f"{where}: {name}")
+        line = f"add columns: {{{name}: {{unit: ...}}}}" if file.columns else f"add units: {{{name}: ...}}"
+        return _track(track, waveform, file.sample_rate, f"{where}: {name}", line, refused)
 
     whole = refused.channels({name: partial(made, name, track) for name, track in tracks.items()})
     if not whole:
@@ -272,23 +285,9 @@ def _from_waveforms(file, refused):
     return _cut(file.runs or {plain_name(file.file.stem, "run"): Stretch()}, whole, where, refused)
 
 
-def _tracks(found, rate, where, tell):
-    """{name: Track} of the channels that the file itself says enough of; tells which are left out, and why."""
-    tracks = {}
-    for name, waveform in found.items():
-        lacks = [what for what, there in (("unit", SPELT.get(waveform.unit, waveform.unit)),
-                                          ("even sampling", waveform.rate or rate)) if not there]
-        if lacks and len(found) > 1:
-            tell(f"{where}: {name} left out: the file states no {' and no '.join(lacks)}; name it under 'columns'")
-        else:
-            tracks[free_name(plain_name(name), tracks)] = Track(column=name)
-    return tracks
-
-
-def _track(track, waveform, rate, where):
-    """The Channel of a Track of a file."""
-    written = waveform.unit if track.unit is None else track.unit
-    unit, factor = SPELT.get(written, written) or None, track.factor
+def _track(track, waveform, rate, where, line, refused):
+    """The Channel of a Track of a file; ``line``: what to write in the case of its unit."""
+    unit, factor = SPELT.get(waveform.unit, waveform.unit) or None if track.unit is None else track.unit, track.factor
     if track.calibrator is not None:
         if track.unit is not None or factor != 1.0:
             raise ConfigError(f"{where}: calibrator", "no unit and no factor beside it, which it gives", "one of them")
@@ -296,9 +295,10 @@ def _track(track, waveform, rate, where):
     if unit is None:
         raise ConfigError(f"{where}: unit", "a unit in the file or in the case", "none", "add unit and measures, of a"
                           " sound file also factor (value of full scale) or calibrator")
-    measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit"))
+    measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit", line))
+    refused.guessed(unit, measures, where)
     return channel(waveform.values, unit, measures, waveform.rate or rate or np.nan, waveform.begin, where,
-                   factor=factor, narrow=True, role=track.role, place=track.place, direction=track.direction)
+                   factor=factor, narrow=True, role=track.role, place=track.place, direction=track.direction, line=line)
 
 
 def _pascal(calibrator, where):
@@ -337,8 +337,9 @@ def _sampled(file, values, columns, units, where):
     return spread, file.sample_rate, begin
 
 
-def _from_uff(file):
-    found = runs("uff", file.file, units=file.units)["file"]
+def _from_uff(file, refused):
+    found = runs("uff", file.file, refused.tell, units=file.units, time_unit=file.time_unit,
+                 frequency_unit=file.frequency_unit, keep_going=refused.keep_going)["file"]
     return {file.run: _run(found.channels, file, f"{file.file}", frf=found.frf, modes=found.modes)}
 
 
@@ -366,7 +367,7 @@ READ = {"matlab": lambda file, refused: _from_columns(file, {
             name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, {}, refused),
         "table": lambda file, refused: _from_columns(file, *table(file.file, file.delimiter, file.skip), refused),
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
-        "uff": lambda file, _: _from_uff(file), "friction": lambda file, _: _from_friction(file),
+        "uff": _from_uff, "friction": lambda file, _: _from_friction(file),
         "lines": lambda file, _: _from_facts(file), "hdf5": lambda file, _: runs("hdf5", file.file)}
 
 
