@@ -103,6 +103,7 @@ class Waveforms(_Clocked):
 
     kind: Literal["audio", "tdms", "mdf"]
     columns: dict[str, Track] = option({}, "channels by name; none = all of the file, under their own names")
+    units: dict[str, str] = option({}, "without columns: unit of a channel where the file says none, or a wrong one")
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none; of uneven time"
                                                      " stamps that of the grid that they are put on")
     time: str | None = option(None, "channel with the times, 'GROUP/CHANNEL' of a TDMS file; none = by its name")
@@ -126,7 +127,9 @@ class Uff(_Clocked):
 
     kind: Literal["uff"] = "uff"
     run: str = option(..., "name of the run")
-    units: dict[str, str] = option({}, "unit of a response where the file says none")
+    units: dict[str, str] = option({}, "unit of a response where the file says none, or a wrong one")
+    time_unit: str | None = option(None, "unit of the times; none = as the file says, else s")
+    frequency_unit: str | None = option(None, "unit of the frequencies; none = as the file says, else Hz")
     description: str = option("", "what was done")
     repeat_of: str = option("", "run that it repeats")
     conditions: dict[str, Given] = option({}, "conditions by name")
@@ -227,6 +230,8 @@ def _from_columns(file, table, imported):
                           + stated_rates(columns))
     for remark in table.remarks:
         imported.tell(f"{where}: {remark}")
+    for name, w in file.columns.items():
+        imported.guessed(w.unit, w.measures, f"{where}: {name}")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
@@ -264,8 +269,9 @@ def _refuse_unknown(file, columns, where):
             raise ConfigError(f"{where}{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
 
 
-def _from_uff(file):
-    found = runs("uff", file.file, units=file.units)["file"]
+def _from_uff(file, imported):
+    found = runs("uff", file.file, imported.tell, units=file.units, time_unit=file.time_unit,
+                 frequency_unit=file.frequency_unit, keep_going=imported.keep_going)["file"]
     return {file.run: _run(found.channels, file, f"{file.file}", frf=found.frf, modes=found.modes)}
 
 
@@ -306,7 +312,7 @@ READ = {"matlab": lambda file, imported: _from_columns(file, TextTable.of(
             waveforms("matlab", file.file), [w.column for w in file.columns.values()]), imported),
         "table": lambda file, imported: _from_columns(file, text_table(file.file, file), imported),
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
-        "uff": lambda file, imported: _on_clock(file, _from_uff(file), imported),
+        "uff": lambda file, imported: _on_clock(file, _from_uff(file, imported), imported),
         "friction": lambda file, _: _from_friction(file), "lines": lambda file, _: _from_facts(file),
         "hdf5": lambda file, imported: _on_clock(file, runs("hdf5", file.file), imported)}
 

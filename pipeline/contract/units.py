@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.received import channel_units
 from pipeline.contract.received.unit_grammar import NoUnitError, checked_unit
 
 #: every unit a product or a setting may carry (each is coherent SI; a test asks pint)
@@ -22,6 +23,12 @@ SI = frozenset({
 
 #: SI units that measured samples are kept in
 MEASURED = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "K", "s", "Hz", "kg", "W", "m^3/s", "m^3", "m/s^3")
+#: and those of what is measured more rarely, or stated as a condition; a channel has none but these and angular ones
+_RARE = ("m^2", "m^2/s", "1/m", "kg/s", "kg/m^3", "kg m^2", "N/m", "N m s", "N/s", "Pa s", "Pa/s", "K/s", "K/m",
+         "W/m^2", "W/m/K", "J/kg", "J/K", "J/K/kg", "1/K", "V/s", "V/m", "A/s", "C", "ohm", "F", "H", "T", "lx")
+#: SI units whose quotients responses per reference have
+_ABOVE = ("1", "m", "m/s", "m/s^2", "m/s^3", "N", "N m", "Pa", "V", "A", "W", "m^3/s")
+_BELOW = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "m^3/s")
 
 #: SI units that a measured quantity can have, by its name; of any other quantity every unit is believed
 QUANTITIES = {"displacement": ("m", "rad"), "position": ("m", "rad"), "velocity": ("m/s", "rad/s"),
@@ -40,7 +47,10 @@ _PARTS = ((re.compile(r"(?<![A-Za-z])([kM]?N)(m{1,2})(?![A-Za-z])"), r"(\1 \2)")
 #: a temperature as it is read; 0 degC in K
 _CELSIUS, _ZERO_CELSIUS = ("degC", "°C"), 273.15
 _UNSIGNED = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
-_LEVEL = re.compile(rf"dB\s+re\s+(?P<value>{_UNSIGNED})\s*(?P<unit>.+)", re.IGNORECASE)
+_LEVEL = re.compile(rf"dB\s*\(?\s*(?:(?:re|ref|rel)\b\.?:?|//)\s*(?P<value>{_UNSIGNED})?\s*(?P<unit>[^\s)][^)]*)\)?",
+                    re.IGNORECASE)
+#: references that levels have by their names
+_REFERENCES = {"dbspl": (20e-6, "Pa"), "dbv": (1.0, "V")}
 
 #: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
 TURNED = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2", "N": "N m", "N/m": "N m/rad", "N s/m": "N m s/rad",
@@ -154,61 +164,142 @@ def _named(name):
     return (base, _EXPONENT[prefix]) if prefix in _EXPONENT and base in _PLAIN - {"kg"} else None
 
 
-def in_si(values, unit, where, measures=""):
-    """(values in coherent SI, name of the SI unit) of ``values`` in any ``unit`` that pint reads.
+def in_si(values, unit, where, measures="", line=""):
+    """(values in coherent SI, name of the SI unit) of ``values`` in a ``unit`` of a channel as it is written.
 
-    The unit is one of MEASURED where its dimension is among them, else a product of base units. ``measures``: name of
-    what is measured; "g" of an acceleration is standard gravity. Levels have a reference, as "dB re 20 uPa", and become
-    effective values. Raises ConfigError, also for a unit that one of QUANTITIES cannot have.
+    ``measures``: name of what is measured; "g" of an acceleration is standard gravity. Levels have a reference, as
+    "dB re 20 uPa", and become effective values. Raises ConfigError, also for a unit that one of QUANTITIES cannot have;
+    ``line``: what to write in the case, for its remedy.
     """
+    if unit.strip()[:2] in ("dB", "DB", "db"):
+        return _from_level(np.asarray(values, float), unit, where, measures, line)
+    reading, name = _chosen(unit, where, measures, line)
+    return _registry().Quantity(values, reading.unit).to(_for_pint(name)).magnitude, name
+
+
+def read_as(unit, measures="", response=False):
+    """What a ``unit``, of a ``response`` per reference or of samples, is taken for where that is a guess, as
+    "9.80665 m/s^2" of "G"; '' otherwise, and of none."""
+    try:
+        reading, name = _chosen_quotient(unit, "unit") if response else _chosen(unit, "unit", measures)
+    except ConfigError:
+        return ""
+    if not reading.guess:
+        return ""
+    return reading.unit if reading.unit in ("degC", "degF") else (
+        f"{_registry().Quantity(1.0, reading.unit).to_base_units().magnitude:.6g} {name}")
+
+
+def _chosen(unit, where, measures="", line=""):
+    """(Reading of a unit, its SI unit): the first that the quantity can have, or that any channel can."""
     import pint
 
-    wanted, unit = QUANTITIES.get(measures, ()), as_written(unit)
-    if "\N{REPLACEMENT CHARACTER}" in unit:
-        raise ConfigError(where, "a unit such as mm/s or kN", repr(unit), "state the unit in the case")
-    if unit.startswith("dB"):
-        return _from_level(np.asarray(values, float), unit, where, measures)
-    if "m/s^2" in wanted and unit in GRAVITIES:
-        return values * GRAVITIES[unit], "m/s^2"
+    wanted = QUANTITIES.get(measures, ())
     try:
-        quantity = _registry().Quantity(values, checked_unit(unit) if unit.strip() not in ("", "1") else "")
-        name = next((n for n in MEASURED if quantity.is_compatible_with("" if n == "1" else n)), None)
-        if set(map(str, quantity.units._units)) & _ANGULAR:
-            name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
-            name = "rad/s^2" if name is None and quantity.is_compatible_with("1/s^2") else name
-        converted = quantity.to_base_units() if name is None else quantity.to("" if name == "1" else name)
-    except (pint.PintError, *_STUMBLES):
-        raise ConfigError(where, "a unit such as mm/s or kN", repr(unit)) from None
-    name = name or f"{converted.units:~C}"
-    if wanted and name not in wanted:
+        if channel_units.only_of(unit) not in ("", measures):
+            raise NoUnitError(repr(unit))
+        found = [(reading, _si_of(reading.unit)) for reading in channel_units.readings(unit)]
+    except (NoUnitError, pint.PintError, *_STUMBLES) as error:
+        raise _no_unit(unit, where, line, *error.args[1:2]) from None
+    found = [(reading, name) for reading, name in found if name]
+    if not found:
+        raise _no_unit(unit, where, line)
+    fitting = next((each for each in found if each[1] in wanted), None) if wanted else found[0]
+    if fitting is None:
         raise ConfigError(where, f"a unit of {measures}, such as {' or '.join(wanted)}", repr(unit),
-                          "correct the unit, or what the channel measures")
-    return converted.magnitude, name
+                          _remedy("correct the unit, or what the channel measures", line))
+    return fitting
 
 
-def quotient_in_si(values, unit, where):
+def _no_unit(unit, where, line, told=""):
+    told = told or channel_units.hint(unit)
+    if "\N{REPLACEMENT CHARACTER}" in unit:
+        told = "" if line else "state the unit in the case"
+    return ConfigError(where, "a unit such as mm/s or kN", f"{unit!r}{'' if told else ', which no channel has'}",
+                       _remedy(told, line))
+
+
+def _remedy(*parts):
+    return "; ".join(filter(None, parts)) or None
+
+
+@cache
+def _si_of(unit):
+    """Name of the SI unit of a ``unit`` of pint that a channel can have; '' of any other."""
+    quantity = _registry().Quantity(1.0, unit)
+    name = next((n for n in MEASURED if quantity.is_compatible_with(_for_pint(n))), "")
+    if "radian" in map(str, quantity.to_base_units().units._units):
+        name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
+        powers = ("1/s^2", "1/s^3") if not name else ()
+        name = next((f"rad{power[1:]}" for power in powers if quantity.is_compatible_with(power)), name)
+    return name or next((n for n in _RARE if quantity.is_compatible_with(_for_pint(n))), "")
+
+
+def quotient_in_si(values, unit, where, line=""):
     """The same of a quotient such as ``mm/s^2/N``, whose parts keep their names: (values, ``m/s^2/N``)."""
+    whole, name = _chosen_quotient(unit, where, line)
+    return _registry().Quantity(values, whole.unit).to_base_units().magnitude, name
+
+
+def _chosen_quotient(unit, where, line=""):
+    """The same as of ``_chosen`` of a response per reference."""
+    import pint
+
+    try:
+        found = [(reading, _registry().Quantity(1.0, reading.unit))
+                 for reading in channel_units.readings(unit, response=True)]
+    except (NoUnitError, pint.PintError, *_STUMBLES) as error:
+        raise _no_unit(unit, where, line, *error.args[1:2]) from None
+    found = [(reading, one, _parts_of(channel_units.plain(unit), one)) for reading, one in found
+             if one.dimensionality in _quotients()]
+    if not found:
+        raise _no_unit(unit, where, line)
+    whole, one, parts = next((each for each in found if each[2]), found[0])
+    name = _si_of(whole.unit)
+    return whole, name if name in MEASURED else parts or f"{one.to_base_units().units:~C}"
+
+
+def _parts_of(unit, whole):
+    """``m/s^2/N`` of a quotient that a quantity ``whole`` of pint measures; '' where it has no parts of channels."""
     above, _, below = unit.rpartition("/")
-    whole = in_si(values, unit, where)
-    if not above or below.count("(") != below.count(")") or whole[1] in MEASURED:
-        return whole
-    values, upper = in_si(values, above, where)
-    per, lower = in_si(1.0, below, where)
-    return values / per, f"{upper}/{lower}"
+    if not above or below.count("(") != below.count(")"):
+        return ""
+    try:
+        pairs = [(upper.unit, lower.unit) for upper in channel_units.readings(above, response=True)
+                 for lower in channel_units.readings(below, response=True)]
+    except NoUnitError:
+        return ""
+    return next((f"{_si_of(upper)}/{_si_of(lower)}" for upper, lower in pairs if _si_of(upper) and _si_of(lower)
+                 and whole.is_compatible_with(f"({upper or 1})/({lower or 1})")), "")
 
 
-def measured_in(unit, where):
+@cache
+def _quotients():
+    """Dimensions of responses per reference."""
+    def dimension(name):
+        return _registry().Quantity(1.0, _for_pint(name)).dimensionality
+
+    return frozenset(dimension(a) / dimension(b) for a in _ABOVE for b in _BELOW)
+
+
+def measured_in(unit, where, line=""):
     """Name of what is usually measured in a ``unit`` as files write it; 'value' of any other. Errors as ``in_si``."""
-    si = "m/s^2" if unit in GRAVITIES else in_si(1.0, unit, where)[1]
+    si = "m/s^2" if channel_units.plain(unit) in GRAVITIES else in_si(1.0, unit, where, line=line)[1]
     return next((name for name, (first, *_) in QUANTITIES.items() if first == si), "value")
 
 
-def _from_level(values, unit, where, measures):
+def _from_level(values, unit, where, measures, line):
     """(values, SI unit) of levels in a unit such as 'dB re 20 uPa'."""
-    stated = _LEVEL.fullmatch(unit)
-    if not stated:
-        raise ConfigError(where, "a level with its reference, such as dB re 20 uPa", repr(unit))
-    reference, name = in_si(float(stated["value"]), stated["unit"], where, measures)
+    stated, named = _LEVEL.fullmatch(unit.strip()), re.sub(r"[\s()]", "", unit).lower()
+    if named in _REFERENCES:
+        value, of = _REFERENCES[named]
+    elif stated:
+        value, of = float(stated["value"] or 1.0), stated["unit"]
+    else:
+        weighted = "" if named == "db" else "a weighted level is no pressure"
+        raise ConfigError(where, "a level with its reference, such as dB re 20 uPa", repr(unit),
+                          _remedy(weighted, line))
+    reference, name = in_si(value, of, where, measures, line)
     return reference * 10.0 ** (values / 20.0), name
 
 
@@ -219,7 +310,7 @@ def _convert(text, unit, refusal):
         quantity = _registry().Quantity(text)
         if _mixes_turns(quantity, unit):
             raise refusal()
-        return float(quantity.to("dimensionless" if unit == "1" else _for_pint(unit)).magnitude)
+        return float(quantity.to(_for_pint(unit) or "dimensionless").magnitude)
     except (pint.PintError, *_STUMBLES):
         raise refusal() from None
 
@@ -233,7 +324,7 @@ def _mixes_turns(quantity, unit):
 
 
 def _for_pint(unit):
-    return unit.replace("1/kg^0.5", "kg^(-0.5)")
+    return {"1": "", "C": "coulomb"}.get(unit, unit.replace("1/kg^0.5", "kg^(-0.5)"))
 
 
 @cache

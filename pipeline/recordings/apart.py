@@ -1,6 +1,7 @@
 """Readers of recordings in a process of their own, which answers with arrays, or with a product."""
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from pipeline.recordings.uff import read_uff
 from pipeline.recordings.waveform import Waveform
 
 _ARRAYS = ("values", "times")
-_COLUMNS, _RUNS, _LEAVE = "columns.json", "runs.h5", "pipeline.recordings.apart:leave"
+_COLUMNS, _RUNS, _REMARKS, _LEAVE = "columns.json", "runs.h5", "remarks.json", "pipeline.recordings.apart:leave"
 
 
 def waveforms(kind, path, **given):
@@ -31,12 +32,12 @@ def waveforms(kind, path, **given):
     return answered(_LEAVE, path, _columns_of, kind=kind, **given)
 
 
-def runs(kind, path, **given):
+def runs(kind, path, tell=None, **given):
     """{name: Run} of the file at ``path``: kind ``hdf5``, or ``uff`` (one run, ``file``); ``given`` goes to its reader.
 
-    Errors as of ``waveforms``.
+    ``tell`` is called with what was left out or guessed. Errors as of ``waveforms``.
     """
-    return answered(_LEAVE, path, _runs_of, kind=kind, **given)
+    return answered(_LEAVE, path, partial(_runs_of, tell=tell), kind=kind, **given)
 
 
 def leave(path, folder, kind, **given):
@@ -45,7 +46,10 @@ def leave(path, folder, kind, **given):
     left(reader(path, folder, **given), Path(folder))
 
 
-def _runs_of(folder):
+def _runs_of(folder, tell):
+    remarks = folder / _REMARKS
+    for remark in json.loads(remarks.read_text()) if tell and remarks.exists() else ():
+        tell(remark)
     examined.trust(folder / _RUNS)
     return store.read(Recording, folder / _RUNS).runs
 
@@ -94,8 +98,10 @@ def _vectors(read):
     return lambda path, _: {name: Waveform(values) for name, values in read(path).items()}
 
 
-def _universal(path, _, units=None):
-    channels, frf, modes = read_uff(path, units)
+def _universal(path, folder, **given):
+    remarks = []
+    channels, frf, modes = read_uff(path, **given, tell=remarks.append)
+    (Path(folder) / _REMARKS).write_text(json.dumps(remarks))
     return {"file": Run(description="", repeat_of="", channels=channels, frf=frf, modes=modes)}
 
 

@@ -27,12 +27,12 @@ GAP = 3
 
 
 def channel(values, unit, measures, rate, begin, where, *, factor=1.0, narrow=False, role="response", place="",
-            position=(), direction=()):
+            position=(), direction=(), line=""):
     """Channel of ``factor`` times ``values`` (sample,) in ``unit``; samples that are not finite are missing.
 
-    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. ``narrow``: float32 stays float32. Raises
-    ConfigError, with ``where``, for a unit that pint cannot read or the quantity cannot have, a rate that is not
-    positive and a channel without any valid sample.
+    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. ``narrow``: float32 stays float32.
+    ``line``: what to write in the case of its unit. Raises ConfigError, with ``where``, for a unit that no channel or
+    not this quantity can have, a rate that is not positive and a channel without any valid sample.
     """
     if not (np.isfinite(rate) and rate > 0):
         raise ConfigError(f"{where}: sample_rate", "a rate above 0 Hz", f"{rate:g}")
@@ -40,18 +40,19 @@ def channel(values, unit, measures, rate, begin, where, *, factor=1.0, narrow=Fa
         raise ConfigError(where, "real samples", "complex ones", "complex spectra go into frf")
     if role not in ROLES:
         raise ConfigError(f"{where}: role", f"one of {', '.join(ROLES)}", repr(role))
-    samples, missing, name = _converted(np.asarray(values, None if narrow else float), factor, unit, measures, where)
+    samples, missing, name = _converted(np.asarray(values, None if narrow else float), factor, unit, measures, where,
+                                        line)
     if not len(samples) or missing.tolist() == [[0, len(samples)]]:
         raise ConfigError(where, "samples", "none that are finite")
     return Channel(samples=samples, missing=missing, unit=name, measures=measures, rate=rate, begin=begin, place=place,
                    position=position, direction=_unit_vector(direction, where), role=role)
 
 
-def _converted(values, factor, unit, measures, where):
+def _converted(values, factor, unit, measures, where, line):
     """(samples (sample,), 0 where missing, gaps (gap, 2), SI unit) of values in ``unit``, block by block."""
     samples, gaps, count, name = Growing(np.float32 if values.dtype == np.float32 else float), [], 0, ""
     for block in blocks(values):
-        converted, name = in_si(factor * np.asarray(block, float), unit, f"{where}: unit", measures)
+        converted, name = in_si(factor * np.asarray(block, float), unit, f"{where}: unit", measures, line)
         good = np.isfinite(converted)
         gaps += (count + stretches(~good)).tolist() if not good.all() else []
         samples.append(np.where(good, converted, 0.0))

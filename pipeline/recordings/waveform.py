@@ -8,6 +8,7 @@ from importlib import import_module
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import measured_in
 
 #: units as measurement systems write them, and as they are read; none where nothing is stated
 SPELT = {"NONE": "", "none": "", "-": "", "?": ""}
@@ -15,6 +16,8 @@ SPELT = {"NONE": "", "none": "", "-": "", "?": ""}
 #: 1990 in microseconds since 1970: earlier instants are those that programs begin to count at
 _SET = 631_152_000_000_000
 
+#: what to do with a channel that lacks more than a unit
+_NAMED = "name it under 'columns'"
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
@@ -41,6 +44,43 @@ def stamped(microseconds):
     if microseconds < _SET:
         return None
     return microseconds / 1e6, next(step / 1e6 for step in (10**6, 10**3, 1) if microseconds % step == 0)
+
+
+def self_told(found, units, rate, where, tell):
+    """{channel: (name in the file, unit of the case or None)} of the Waveforms ``found`` that say enough of themselves.
+
+    ``units``: name, of the file or plain -> unit, where the file states none or a wrong one; ``rate`` Hz: of those that
+    state none. ``tell`` is called with what is left out, and why; one alone is left to its error. Raises ConfigError
+    for ``units`` of others.
+    """
+    told, units = {}, dict(units)
+    for name, one in found.items():
+        key = free_name(plain_name(name), told)
+        stated = units.pop(name, units.pop(key, None))
+        unit = SPELT.get(one.unit, one.unit) if stated is None else stated
+        even = rate or one.rate or (one.times is not None and len(one.times) > 1)
+        lacks = [what for what, there in (("unit", unit), ("sampling rate", even)) if not there]
+        remark = f" ({one.remark})" if one.remark else ""
+        line = f"add units: {{{key}: ...}}"
+        why = _unreadable(unit, "unit", line) if unit and stated is None else ""
+        if lacks:
+            why = f"the file states no {' and no '.join(lacks)}{remark}; {line if lacks == ['unit'] else _NAMED}"
+        if why and len(found) > 1:
+            tell(f"{where}: {name} left out: {why}")
+        else:
+            told[key] = name, stated
+    if units:
+        raise ConfigError(f"{where}: units", f"channels among {', '.join(found)}", ", ".join(units))
+    return told
+
+
+def _unreadable(unit, where, line):
+    """Why no channel can have this unit; '' where one can."""
+    try:
+        measured_in(unit, where, line)
+    except ConfigError as error:
+        return str(error)
+    return ""
 
 
 def held_as(dtype):

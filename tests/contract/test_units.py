@@ -104,8 +104,8 @@ def test_units_are_read_as_people_write_them(written, unit, factor):
     """In files and in settings, alone and as part of a unit; nanometres are none of them."""
     assert in_si(2.0, written, "here") == (pytest.approx(2 * factor), unit)
     assert to_si(f"2 {written}", unit, "here") == pytest.approx(2 * factor)
-    assert in_si(2.0, f"rad/{written}", "here")[0] == pytest.approx(2 / factor)
-    assert in_si(2.0, f"{written}/V", "here")[0] == pytest.approx(2 * factor)
+    assert quotient_in_si(2.0, f"rad/({written})", "here")[0] == pytest.approx(2 / factor)
+    assert quotient_in_si(2.0, f"{written}/V", "here")[0] == pytest.approx(2 * factor)
     assert in_si(2.0, "nm", "here")[0] == pytest.approx(2e-9)
 
 

@@ -370,3 +370,61 @@ def test_files_of_whole_runs_join_by_an_offset(files):
     assert moved["first"].conditions["course"].time.tolist() == pytest.approx([2.0, 2.1])
     with pytest.raises(ConfigError, match="d.uff: runs.hammer: expected its offset from q.wav"):
         read(files, audio, UFF)
+
+
+def tdms_of(path, labels):
+    """A TDMS file by npTDMS whose channels have these {name: unit_string}."""
+    from nptdms import ChannelObject, TdmsWriter
+
+    with TdmsWriter(str(path)) as writer:
+        writer.write_segment([ChannelObject("g", name, SINE, properties={"wf_increment": 1e-4, "unit_string": label})
+                              for name, label in labels.items()])
+
+
+def mdf_of(path, labels):
+    """An MDF 4 file by asammdf whose channels have these {name: unit}."""
+    from asammdf import MDF, Signal
+
+    with MDF() as file:
+        file.append([Signal(SINE, np.arange(len(SINE)) * 1e-4, name=name, unit=label)
+                     for name, label in labels.items()])
+        file.save(path, overwrite=True)
+
+
+LABELS = {"acc": "G", "mic": "PA", "disc": "deg C", "line": "bar(g)", "gap": "mils", "speed": "RPM", "odd": "EU"}
+
+
+@pytest.mark.parametrize("kind, name, write, group", [("tdms", "a.tdms", tdms_of, "g_"), ("mdf", "a.mf4", mdf_of, "")])
+def test_labels_as_people_write_them_and_one_that_is_none(tmp_path, kind, name, write, group):
+    """One bad label leaves the other channels; 'units' corrects it, by the name in the file or the plain one."""
+    write(tmp_path / name, LABELS)
+    file = {"kind": kind, "file": name}
+    found, told = told_by(tmp_path, files=[file])
+    channels = {key.removeprefix(group): one for key, one in found.runs["a"].channels.items()}
+    assert {key: str(one.unit) for key, one in channels.items()} == {
+        "acc": "m/s^2", "mic": "Pa", "disc": "K", "line": "Pa", "gap": "m", "speed": "rad/s"}
+    assert np.ptp(channels["gap"].samples) == pytest.approx(25.4e-6 * np.ptp(SINE), rel=1e-6)
+    assert any("odd left out: unit: expected a unit such as mm/s or kN, found 'EU'" in line
+               and line.endswith(f"add units: {{{group}odd: ...}}") for line in told)
+    assert any("unit 'G' is read as 9.80665 m/s^2" in line for line in told)
+    for key in {f"{group}odd", "g/odd" if group else "odd"}:
+        found, told = told_by(tmp_path, files=[{**file, "units": {key: "kN"}}])
+        assert str(found.runs["a"].channels[f"{group}odd"].unit) == "N" and not any("left out" in t for t in told)
+    with pytest.raises(ConfigError, match="units: expected channels among .*, found nought"):
+        told_by(tmp_path, files=[{**file, "units": {"nought": "kN"}}])
+
+
+def test_a_file_of_bad_labels_alone_is_refused_with_the_line(tmp_path):
+    tdms_of(tmp_path / "a.tdms", {"odd": "EU"})
+    with pytest.raises(ConfigError, match=r"found 'EU'; EU, engineering units, .*; add units: \{g_odd: \.\.\.\}"):
+        told_by(tmp_path, files=[{"kind": "tdms", "file": "a.tdms"}])
+
+
+def test_units_and_abscissae_of_a_universal_file_are_set_in_the_case(tmp_path):
+    test_uff.write(tmp_path / "d.uff", x=np.arange(5.0), abscissa_axis_units_lab="bogus", ordinate_axis_units_lab="G")
+    file = {**UFF, "time_unit": "ms"}
+    found, told = told_by(tmp_path, files=[file])
+    assert float(found.runs["hammer"].channels["acc_1"].rate) == pytest.approx(1000)
+    assert any("acc_1: unit 'G' is read as 9.80665 m/s^2" in line for line in told)
+    found, told = told_by(tmp_path, files=[{**file, "units": {"acc_1": "mm/s^2"}}])
+    assert found.runs["hammer"].channels["acc_1"].samples[1] == pytest.approx(1e-3) and len(told) == 1

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import read_as
 from pipeline.products import FileClock, Run
 from pipeline.recordings.runs.offsets import offset_between
 from pipeline.recordings.waveform import free_name, plain_name
@@ -31,6 +32,12 @@ class Imported:
         """Tell and keep a sentence."""
         self.remarks.append(sentence)
         self.hear(sentence)
+
+    def guessed(self, unit, measures, where):
+        """Tells what a unit is taken for where that is a guess."""
+        guess = read_as(unit, measures)
+        if guess:
+            self.tell(f"{where}: unit {unit!r} is read as {guess}")
 
     def channels(self, makers):
         """{name: Channel} of ``makers`` {name: () -> Channel}."""

@@ -10,7 +10,7 @@ from pipeline.contract.units import in_si, measured_in
 from pipeline.recordings.apart import waveforms
 from pipeline.recordings.runs.even_times import on_even_times
 from pipeline.recordings.samples import channel, steady_tone
-from pipeline.recordings.waveform import SPELT, free_name, plain_name
+from pipeline.recordings.waveform import SPELT, self_told
 
 #: kinds of a calibrator's file by its suffix; any other is sound
 _KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
@@ -29,7 +29,7 @@ def channels_of(file, imported, track):
     for name, wanted in file.columns.items():
         if wanted.column not in found:
             raise ConfigError(f"{where}: {name}.column", f"one of {', '.join(found)}", repr(wanted.column))
-    tracks, names = file.columns or _tracks(found, file.sample_rate, where, imported.tell, track), list(found)
+    tracks, names = file.columns or _tracks(found, file, where, imported.tell, track), list(found)
     stamp = next((one.stamp for one in found.values() if one.stamp), None)
     uses, told = Counter(one.column for one in tracks.values()), defaultdict(list)
 
@@ -41,7 +41,8 @@ def channels_of(file, imported, track):
             raise ConfigError(f"{where}: {name}", "samples", f"none: {even.remark}")
         if even.remark:
             told[even.remark].append(name)
-        return _channel(one, even, f"{where}: {name}")
+        line = f"add columns: {{{name}: {{unit: ...}}}}" if file.columns else f"add units: {{{name}: ...}}"
+        return _channel(one, even, f"{where}: {name}", line, imported)
 
     whole = imported.channels({name: partial(made, name, one) for name, one in tracks.items()})
     for remark, channels in told.items():
@@ -52,29 +53,18 @@ def channels_of(file, imported, track):
     return whole, stamp
 
 
-def _tracks(found, rate, where, tell, track):
+def _tracks(found, file, where, tell, track):
     """{name: settings} of the channels that the file itself says enough of; tells which are left out, and why."""
-    tracks, left = {}, defaultdict(list)
-    usable = sum(len(one.values) > 0 for one in found.values())
     for name, one in found.items():
         if not len(one.values):
-            left[one.remark].append(name)
-            continue
-        even = rate or one.rate or (one.times is not None and len(one.times) > 1)
-        unit = SPELT.get(one.unit, one.unit)
-        lacks = [what for what, there in (("unit", unit), ("sampling rate", even)) if not there]
-        if lacks and usable > 1:
-            told = f" ({one.remark})" if one.remark else ""
-            left[f"the file states no {' and no '.join(lacks)}{told}; name it under 'columns'"].append(name)
-        else:
-            tracks[free_name(plain_name(name), tracks)] = track(column=name)
-    for why, names in left.items():
-        tell(f"{where}: {', '.join(names)} left out: {why}")
-    return tracks
+            tell(f"{where}: {name} left out: {one.remark}")
+    usable = {name: one for name, one in found.items() if len(one.values)}
+    return {name: track(column=column, unit=unit) for name, (column, unit) in self_told(
+        usable, file.units, file.sample_rate, where, tell).items()}
 
 
-def _channel(track, waveform, where):
-    """The Channel of a track of a file."""
+def _channel(track, waveform, where, line, imported):
+    """The Channel of a track of a file; ``line``: what to write in the case of its unit."""
     written = waveform.unit if track.unit is None else track.unit
     unit, factor = SPELT.get(written, written) or None, track.factor
     if track.calibrator is not None:
@@ -84,9 +74,11 @@ def _channel(track, waveform, where):
     if unit is None:
         raise ConfigError(f"{where}: unit", "a unit in the file or in the case", "none", "add unit and measures, of a"
                           " sound file also factor (value of full scale) or calibrator")
-    measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit"))
+    measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit", line))
+    imported.guessed(unit, measures, where)
     return channel(waveform.values, unit, measures, waveform.rate or np.nan, waveform.begin, where, factor=factor,
-                   narrow=True, role=track.role, place=track.place, direction=track.direction)
+                   narrow=True, role=track.role, place=track.place, direction=track.direction,
+                   line=line)
 
 
 def _pascal(calibrator, where):

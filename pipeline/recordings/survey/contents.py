@@ -79,7 +79,8 @@ def contents(path):
 
 
 def _of_runs(path, kind):
-    found = runs(kind, path)
+    remarks = []
+    found = runs(kind, path, tell=remarks.append)
     names = {name: run for name, run in found.items() if run.channels}
     if not names:
         raise ConfigError(path, "channels of samples over time", "none", "for frequency responses: chain modal_test")
@@ -92,7 +93,8 @@ def _of_runs(path, kind):
         signals[channel] = Signal(channel, channel, meaning(channel, str(one.unit), str(one.measures), turning),
                                   float(one.rate), {n: with_gaps(c) for n, c in whole.items()})
     settings = {"run": first} if kind == "uff" else {}
-    return Contents(path, kind, settings, signals, dict.fromkeys([first] if first else names, {}), False)
+    return Contents(path, kind, settings, signals, dict.fromkeys([first] if first else names, {}), False,
+                    remarks)
 
 
 def _of_waveforms(path, kind):

@@ -72,9 +72,12 @@ class Meaning:
 
 
 def meaning(name, unit="", measures="", turning=False):
-    """Meaning of a column; ``unit`` and ``measures`` as the file states them, ``turning``: it lies beside torques."""
+    """Meaning of a column; ``unit`` and ``measures`` as the file states them, ``turning``: it lies beside torques.
+
+    A unit that no channel has is none.
+    """
     bare, written = split_unit(name)
-    unit = unit or written
+    unit = unit if _known(unit) else written
     index = re.search(r"(\d+)\s*$", bare)
     measures = measures if measures not in ("", "value") else ""
     base = bool(_BASE.search(bare))

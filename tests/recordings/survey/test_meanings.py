@@ -28,3 +28,8 @@ def test_what_was_asked_for_filtered_or_of_the_base_is_seen():
 
 def test_brackets_that_hold_no_unit_stay_in_the_name():
     assert split_unit("Channel (left)") == ("Channel (left)", "")
+
+
+def test_a_unit_that_no_channel_has_is_none():
+    assert not meaning("force", "EU").stated and meaning("force", "EU").unit == "N"
+    assert meaning("mic", "PA").measures == "pressure" and meaning("a", "G").measures == "acceleration"
