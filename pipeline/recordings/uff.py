@@ -60,7 +60,7 @@ def read_uff(path, units=None):
             _put(channels, _name(data_set), _signal(data_set, units, system, where))
         elif data_set["type"] == 58 and data_set["func_type"] == RESPONSE:
             _put(frf, _name(data_set), _response(data_set, units, system, where))
-        elif data_set["type"] == 55 and "freq" in data_set:
+        elif data_set["type"] == 55 and ("freq" in data_set or "eig" in data_set):
             _put(modes, f"mode_{len(modes) + 1}", _mode(data_set))
     strange = sorted(set(units) - {_name(data_set) for _, data_set in sets if data_set["type"] == 58})
     if strange:
@@ -192,6 +192,9 @@ def _mode(data_set):
     parts = [np.atleast_1d(np.asarray(data_set[f"r{k}"], complex)) for k in range(1, 7) if f"r{k}" in data_set]
     nodes = np.atleast_1d(np.asarray(data_set["node_nums"], int))
     names = [f"node {n} direction {k}" for k in range(1, len(parts) + 1) for n in nodes]
-    ratio = float(data_set.get("modal_damp_vis", 0.0) or 0.0)
-    return MeasuredModes(frequency=[float(data_set["freq"])], frequency_std=[0.0], damping_ratio=[ratio],
+    frequency, ratio = data_set.get("freq"), float(data_set.get("modal_damp_vis", 0.0) or 0.0)
+    if frequency is None:       # a complex mode: s = growth rate + i angular frequency
+        root = complex(data_set["eig"])
+        frequency, ratio = abs(root) / (2.0 * np.pi), -root.real / max(abs(root), 1e-300)
+    return MeasuredModes(frequency=[float(frequency)], frequency_std=[0.0], damping_ratio=[ratio],
                          damping_ratio_std=[0.0], place=names, shape=np.concatenate(parts)[None, :])
