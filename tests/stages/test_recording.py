@@ -242,3 +242,14 @@ def test_times_are_in_the_unit_that_the_file_says(tmp_path, head):
     (tmp_path / "b.csv").write_text(head + "".join(f"{k},{k},1\n" for k in range(5)))
     table = {**TABLE, "sample_rate": None, "time": head.split(",")[0]}
     assert float(read(tmp_path, table).runs["t"].channels["x"].rate) == pytest.approx(1000)
+
+
+def test_channels_that_are_held_at_the_end_of_their_range_are_told(tmp_path):
+    """The same squeal twice in a file of 24 bits: overloaded, and at half the gain."""
+    soundfile = pytest.importorskip("soundfile")
+    tone = np.sin(2 * np.pi * 3100 * np.arange(48000) / 48e3) + 1e-3 * np.random.default_rng(0).standard_normal(48000)
+    soundfile.write(tmp_path / "stop.flac", np.column_stack([np.clip(1.3 * tone, -1, 1), 0.65 * tone]), 48000, "PCM_24")
+    columns = {name: {"column": str(k), "unit": "Pa", "factor": 20.0} for k, name in ((1, "near"), (2, "far"))}
+    _, told = told_by(tmp_path, files=[{"kind": "audio", "file": "stop.flac", "columns": columns}])
+    assert [line.split(":")[0] for line in told if "overloaded" in line] == ["stop, near"]
+    assert any("44 % of the samples stand at the end of the range, 20 Pa" in line for line in told)
