@@ -72,6 +72,8 @@ def orders(recording: Recording, settings: Settings, context: Context) -> Orders
         if turning is None:
             context.log(f"{name}: the tacho {shaft} gives fewer than three pulses: no orders")
             continue
+        if turning.remark:
+            context.log(f"{name}, {shaft}: {turning.remark}")
         if np.ptp(turning.speed) < settings.variation * turning.speed.max() or not turning.speed.max():
             context.log(f"{name}: the speed {shaft} varies by less than {settings.variation:g} of its highest value:"
                         " no orders")
@@ -141,7 +143,8 @@ def _tracked(task, settings):
     found = strongest(orders, settings.outstanding)
     level, blocks = over_speed(orders.speed, found.amplitude.T, edge)
     frequency, diagram, frames = campbell(signal, turning, top, settings.window, edge)
-    return OrderSpectra(run=run, channel=name, shaft=shaft, unit=str(channel.unit), time=orders.time,
+    return OrderSpectra(run=run, channel=name, shaft=shaft, remark=turning.remark,
+                        unit=str(channel.unit), time=orders.time,
                         speed=orders.speed, order=orders.order, amplitude=orders.amplitude.astype(np.float32),
                         edge=edge, outstanding=found.order, sure=found.sure.astype(int), level=level.T,
                         blocks=blocks, frequency=frequency, campbell=diagram.astype(np.float32),

@@ -126,13 +126,14 @@ class NoiseEvents:
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
 
 
-@product(version=1)
+@product(version=2)
 class OrderSpectra:
     """Vibration over the revolutions of a shaft: one channel of a run during which the speed varies."""
 
     run: Array = text("", "run")
     channel: Array = text("", "channel")
     shaft: Array = text("", "channel that tells the speed")
+    remark: Array = text("", "what was assumed of the pulses of a tacho; empty for nothing")
     unit: Array = text("", "coherent SI unit of the amplitudes")
     time: Array = quantity("s", "time", "middle of each block of revolutions, in the time of the record")
     speed: Array = quantity("rad/s", "time", "mean speed in it")
@@ -148,7 +149,7 @@ class OrderSpectra:
     frames: Array = count("bin", "frames in each bin of speed")
 
 
-@product(version=1)
+@product(version=2)
 class Orders:
     """Orders of the recordings of a bench. Empty where no channel tells a speed that varies."""
 

@@ -71,7 +71,7 @@ def read_uff(path, units=None, time_unit=None, frequency_unit=None, keep_going=F
     system = next((data_set for _, data_set in sets if data_set["type"] == 164), None)
     told, refused = [(one.remark, f"data set {number}") for number, one in enumerate(found, 1) if one.remark], []
     for number, data_set in sets:
-        if data_set["type"] == 55 and "freq" in data_set:
+        if data_set["type"] == 55 and ("freq" in data_set or "eig" in data_set):
             modes[f"mode_{len(modes) + 1}"] = _mode(data_set)
         if number not in names:
             continue
@@ -304,6 +304,9 @@ def _mode(data_set):
     parts = [np.atleast_1d(np.asarray(data_set[f"r{k}"], complex)) for k in range(1, 7) if f"r{k}" in data_set]
     nodes = np.atleast_1d(np.asarray(data_set["node_nums"], int))
     names = [f"node {n} direction {k}" for k in range(1, len(parts) + 1) for n in nodes]
-    ratio = float(data_set.get("modal_damp_vis", 0.0) or 0.0)
-    return MeasuredModes(frequency=[float(data_set["freq"])], frequency_std=[0.0], damping_ratio=[ratio],
+    frequency, ratio = data_set.get("freq"), float(data_set.get("modal_damp_vis", 0.0) or 0.0)
+    if frequency is None:       # a complex mode: s = growth rate + i angular frequency
+        root = complex(data_set["eig"])
+        frequency, ratio = abs(root) / (2.0 * np.pi), -root.real / max(abs(root), 1e-300)
+    return MeasuredModes(frequency=[float(frequency)], frequency_std=[0.0], damping_ratio=[ratio],
                          damping_ratio_std=[0.0], place=names, shape=np.concatenate(parts)[None, :])

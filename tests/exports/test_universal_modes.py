@@ -58,3 +58,14 @@ def test_tetrahedra_and_wedges_stand_by_their_corners(tmp_path):
     assert [e["nodes_nums"] for e in kinds[2412][112]] == [[11, 12, 13, 14, 15, 16]]
     with pytest.raises(ConfigError, match="a name that is free, found a file"):
         write_universal(modes, tmp_path / "a.unv", "a test")
+
+
+def test_complex_modes_are_read_again_as_measured_ones_are(brake, tmp_path):
+    modes = complex_modes_of(brake)
+    write_universal(modes, tmp_path / "again.unv", "a test")
+    _, _, found = read_uff(tmp_path / "again.unv")
+    assert list(found) == [f"mode_{k + 1}" for k in range(len(modes.root))]
+    for one, root, shape in zip(found.values(), modes.root, modes.shape, strict=True):
+        assert one.frequency[0] == pytest.approx(abs(root) / (2 * np.pi), rel=1e-5)
+        assert one.damping_ratio[0] == pytest.approx(-root.real / abs(root), abs=1e-5)
+        np.testing.assert_allclose(one.shape[0], shape.T.ravel(), atol=6e-6)

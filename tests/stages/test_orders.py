@@ -93,3 +93,15 @@ def test_the_speed_may_come_from_the_pulses_of_a_tacho():
         orders.check({"orders": Settings(pulses=6)})
     told = []
     assert not found(recording, told, shaft="torque", pulses=1, channels=["line"]) and told
+
+
+def test_missing_teeth_are_told_on_the_terminal_and_in_the_product():
+    toothed = 5.0 * ((np.sin(2 * np.pi * 12 * TURNS) > 0) & ((12 * TURNS) % 12 < 10))
+    bare = run(tacho=channel(toothed, "V", "voltage", RATE, 2.0, "tacho")).channels
+    bare = {name: one for name, one in bare.items() if name != "shaft"}
+    told = []
+    made = found(Recording(source=[], runs={"stop": Run(description="", repeat_of="", channels=bare)}), told,
+                 shaft="tacho", pulses=10)
+    assert "a wheel of 12 teeth of which 2 are missing" in str(made["stop.torque"].remark)
+    assert any("stop, tacho: a wheel of 12 teeth" in line for line in told)
+    assert made["stop.torque"].outstanding == pytest.approx([2.0], abs=0.02)

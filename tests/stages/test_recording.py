@@ -428,3 +428,14 @@ def test_units_and_abscissae_of_a_universal_file_are_set_in_the_case(tmp_path):
     assert any("acc_1: unit 'G' is read as 9.80665 m/s^2" in line for line in told)
     found, told = told_by(tmp_path, files=[{**file, "units": {"acc_1": "mm/s^2"}}])
     assert found.runs["hammer"].channels["acc_1"].samples[1] == pytest.approx(1e-3) and len(told) == 1
+
+
+def test_channels_that_are_held_at_the_end_of_their_range_are_told(tmp_path):
+    """The same squeal twice in a file of 24 bits: overloaded, and at half the gain."""
+    soundfile = pytest.importorskip("soundfile")
+    tone = np.sin(2 * np.pi * 3100 * np.arange(48000) / 48e3) + 1e-3 * np.random.default_rng(0).standard_normal(48000)
+    soundfile.write(tmp_path / "stop.flac", np.column_stack([np.clip(1.3 * tone, -1, 1), 0.65 * tone]), 48000, "PCM_24")
+    columns = {name: {"column": str(k), "unit": "Pa", "factor": 20.0} for k, name in ((1, "near"), (2, "far"))}
+    _, told = told_by(tmp_path, files=[{"kind": "audio", "file": "stop.flac", "columns": columns}])
+    assert [line.split(":")[0] for line in told if "overloaded" in line] == ["stop, near"]
+    assert any("44 % of the samples stand at the end of the range, 20 Pa" in line for line in told)

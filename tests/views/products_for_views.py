@@ -208,7 +208,7 @@ def orders(quiet=False):
     frequency, random = np.linspace(0.0, 500.0, 40), np.random.default_rng(7)
     found = np.array([] if quiet else [1.0, 10.0])
     return Orders(spectra={"stop.torque": filled(
-        OrderSpectra, run="stop", channel="torque", shaft="wheel", unit="N m", time=np.arange(30.0),
+        OrderSpectra, run="stop", channel="torque", shaft="wheel", remark="", unit="N m", time=np.arange(30.0),
         speed=np.linspace(edge[-1], edge[0], 30), order=np.arange(161) / 8, edge=edge, outstanding=found,
         sure=[0, 1][:len(found)], level=np.outer(found, 1.0 + random.random(10)).reshape(-1, 10),
         blocks=[3] * 9 + [0], frequency=frequency, campbell=random.random((10, 40)), frames=[5] * 9 + [0])})

@@ -61,3 +61,10 @@ def test_the_first_screen_tells_the_largest_orders():
     case = CaseSummary(name="x")
     assert "Campbell diagram" in page([], quiet | {"orders": small.orders()}, case, LOOK)
     assert "Campbell diagram" not in page([], quiet | {"orders": small.orders(quiet=True)}, case, LOOK)
+
+
+def test_what_was_assumed_of_a_tacho_is_told():
+    whole = small.orders()
+    toothed = {name: replace(one, remark=np.array("a wheel of 60 teeth")) for name, one in whole.spectra.items()}
+    assert chapter(replace(whole, spectra=toothed), LOOK).conclude.endswith(" Run stop, wheel: a wheel of 60 teeth.")
+    assert "wheel of" not in chapter(whole, LOOK).conclude

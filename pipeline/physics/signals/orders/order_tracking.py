@@ -15,17 +15,24 @@ _SAMPLED = 5.0
 
 #: share of the height of a tacho's pulses that its signal must pass beyond their middle
 _HYSTERESIS = 0.15
+#: intervals of pulses on either side with which one is compared, and how many times it is longer where a pulse is
+#: missing, or shorter where one is too many
+_BESIDE, _LONG, _SHORT = 3, 1.6, 0.4
+#: gaps of a toothed wheel that tell that it has them, and share of them that must be as far apart
+_GAPS, _ALIKE = 3, 0.8
 #: blocks that are transformed at once
 _AT_ONCE = 256
 
 
 @dataclass(frozen=True)
 class Shaft:
-    """A shaft. time : (n,) [s]; speed : (n,) [rad/s], without direction; turns : (n,) revolutions since its begin."""
+    """A shaft. time : (n,) [s]; speed : (n,) [rad/s], without direction; turns : (n,) revolutions since its begin;
+    remark : what was assumed of its pulses, '' of nothing."""
 
     time: np.ndarray
     speed: np.ndarray
     turns: np.ndarray
+    remark: str = ""
 
 
 @dataclass(frozen=True)
@@ -68,7 +75,9 @@ def shaft_of(speed, rate, begin):
 def shaft_of_pulses(samples, rate, begin, pulses):
     """Shaft of a tacho (n,) at ``rate`` in Hz from ``begin`` in s that gives so many ``pulses`` a revolution, evenly.
 
-    A pulse is where the signal rises through its middle, after it was low. None where fewer than three pulses come.
+    A pulse is where the signal rises through its middle, after it was low. Where an interval is twice as long as those
+    on both sides, or more times, pulses are missing, as of a wheel without some of its teeth, and are counted. None
+    where fewer than three pulses come.
     """
     low, high = np.nanpercentile(samples, [0.1, 99.9])
     middle, state = (low + high) / 2, np.zeros(len(samples), int)
@@ -80,8 +89,41 @@ def shaft_of_pulses(samples, rate, begin, pulses):
     if high == low or len(rises) < 3:
         return None
     share = (middle - samples[falls]) / (samples[rises] - samples[falls])
-    time, turns = begin + (falls + share * (rises - falls)) / rate, np.arange(len(rises)) / pulses
-    return Shaft(time, 2.0 * np.pi * np.gradient(turns, time), turns)
+    time = begin + (falls + share * (rises - falls)) / rate
+    steps, short = _steps(np.diff(time))
+    pulses, remark = _teeth(steps, pulses)
+    if short:
+        remark += f"{'; ' if remark else ''}{short} pulses come too soon after another, and are counted: noise?"
+    turns = np.concatenate([[0], np.cumsum(steps)]) / pulses
+    return Shaft(time, 2.0 * np.pi * np.gradient(turns, time), turns, remark)
+
+
+def _steps(interval):
+    """((n,) pulses that pass in each ``interval`` (n,), number of those that are far too short)."""
+    steps, inner = np.ones(len(interval), int), interval[1:-1]
+    if not len(inner):
+        return steps, 0
+    about = sliding_window_view(np.pad(interval, _BESIDE, constant_values=np.nan), _BESIDE)
+    before, after = (np.nanmedian(about[k:k + len(inner)], axis=1) for k in (1, _BESIDE + 2))
+    steps[1:-1] = np.where(inner > _LONG * np.maximum(before, after), np.rint(2 * inner / (before + after)), 1)
+    return steps, int(np.sum(inner < _SHORT * np.minimum(before, after)))
+
+
+def _teeth(steps, pulses):
+    """(pulses of a whole revolution, remark) of a tacho of which the case says that it gives ``pulses``."""
+    gaps = np.flatnonzero(steps > 1)
+    if not len(gaps):
+        return pulses, ""
+    apart, missing = np.diff(np.cumsum(steps)[gaps]), int(np.median(steps[gaps])) - 1
+    every, often = int(np.median(apart)) if len(apart) else 0, np.mean(apart == np.median(apart)) if len(apart) else 0.0
+    if len(gaps) >= _GAPS and often >= _ALIKE and pulses in (every, every - missing):
+        other = "" if pulses == every else f", and a revolution has {every} pulses, not {pulses}"
+        return every, (f"a wheel of {every} teeth of which {missing} {'is' if missing == 1 else 'are'} missing: the gap"
+                       f" is bridged{other}")
+    told = f"{int(np.sum(steps[gaps] - 1))} pulses are missing in {len(gaps)} gaps, which are bridged"
+    if len(gaps) >= _GAPS and often >= _ALIKE:
+        told += f"; as gaps come every {every} pulses, this may be a wheel with a gap, and orders.pulses {every}"
+    return pulses, told
 
 
 def smooth(samples, rate, begin, highest):

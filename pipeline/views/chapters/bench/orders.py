@@ -61,7 +61,9 @@ def _conclusion(product):
             + (f"The largest: {told}." if told else "What is loud there keeps its frequency while the speed changes, or"
                " is noise.")
             + ("" if all(one.sure[k] for one, k, _ in rows) else " An order or steady tone: over this range of speed a"
-               " tone of constant frequency would look alike; more range, or more revolutions a block, tells."))
+               " tone of constant frequency would look alike; more range, or more revolutions a block, tells.")
+            + "".join(f" Run {run}, {shaft}: {remark}." for run, shaft, remark in dict.fromkeys(
+                (str(one.run), str(one.shaft), str(one.remark)) for one in spectra if str(one.remark))))
 
 
 def _diagram(one, look):

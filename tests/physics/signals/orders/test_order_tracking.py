@@ -87,3 +87,39 @@ def test_a_tacho_tells_the_angle_by_its_pulses():
     assert found.order[0] == pytest.approx(2.0, abs=0.01)
     np.testing.assert_allclose(found.amplitude[0], 3.0, rtol=0.01)
     assert shaft_of_pulses(np.ones(100), RATE, 0.0, 4) is None and shaft_of_pulses(tacho[:150], RATE, 0.0, 4) is None
+
+
+def wheel(teeth, missing, lost=()):
+    """A tacho of a wheel of ``teeth`` without the last ones, and without the pulses ``lost``, on the ramp."""
+    passed = np.floor(teeth * TURNS).astype(int)
+    there = (passed % teeth < teeth - missing) & ~np.isin(passed, lost)
+    return 5.0 * (there & ((teeth * TURNS) % 1.0 < 0.5))
+
+
+@pytest.mark.parametrize("teeth, missing, stated, told", [
+    (12, 1, 12, "a wheel of 12 teeth of which 1 is missing: the gap is bridged"),
+    (12, 2, 12, "a wheel of 12 teeth of which 2 are missing: the gap is bridged"),
+    (12, 2, 10, "the gap is bridged, and a revolution has 12 pulses, not 10"),
+    (4, 1, 3, "a wheel of 4 teeth of which 1 is missing: the gap is bridged, and a revolution has 4 pulses, not 3")])
+def test_missing_teeth_are_bridged_and_told(teeth, missing, stated, told):
+    turning = shaft_of_pulses(wheel(teeth, missing), RATE, 0.0, stated)
+    assert turning.remark.endswith(told)
+    expected = np.interp(turning.time, T, TURNS)
+    np.testing.assert_allclose(turning.turns - turning.turns[0], expected - expected[0], atol=5e-3)
+    speed = FIRST + (LAST - FIRST) * turning.time / END
+    np.testing.assert_allclose(turning.speed[2:-2], speed[2:-2], rtol=0.08)
+
+
+def test_pulses_that_were_lost_here_and_there_are_counted():
+    turning = shaft_of_pulses(wheel(12, 0, (100, 407, 408)), RATE, 0.0, 12)
+    assert turning.remark == "3 pulses are missing in 2 gaps, which are bridged"
+    expected = np.interp(turning.time, T, TURNS)
+    np.testing.assert_allclose(turning.turns - turning.turns[0], expected - expected[0], atol=5e-3)
+    assert shaft_of_pulses(wheel(12, 0), RATE, 0.0, 12).remark == ""
+
+
+def test_pulses_that_come_twice_and_gaps_that_no_wheel_has_are_told():
+    assert "gaps come every 12 pulses" in shaft_of_pulses(wheel(12, 1), RATE, 0.0, 7).remark
+    steady = shaft_of_pulses(np.insert(wheel(12, 0), np.flatnonzero(np.diff(wheel(12, 0)) > 0)[40] + 3, [0.0, 5.0]),
+                             RATE, 0.0, 12)
+    assert "come too soon after another" in steady.remark
