@@ -12,6 +12,10 @@ from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 
 
+#: share of what one law leaves that several may leave to lead in its place
+_CLEARLY = 0.75
+
+
 @dataclass(frozen=True)
 class Needed:
     """What a member of a set of laws is worth: ``evidence_gain`` (nat), its ``share`` of what the set explains of the
@@ -104,13 +108,13 @@ def values_of(fit, laws):
 
 def leading(combinations, decision, rules, alone=1.0):
     """Index of the set of laws that predicts held-out runs best, else fits best, among the ``combinations`` that leave
-    little together, on held-out runs too, by values that no prior excludes, and half of what one law does: the leading
-    one of a Decision ``unknown``, or the share ``alone`` of the best fit; None where none does."""
+    little together, on held-out runs too, by values that no prior excludes: half of what the leading law of a Decision
+    ``unknown`` leaves, and clearly less than the share ``alone`` of the best fit of one; None where none does."""
     if decision.verdict != "unknown":
         return None
-    alone = min(alone, 1 - decision.leading.takes if decision.leading else 1.0)
-    together = rules.decision.leads_together
-    good = [k for k, c in enumerate(combinations) if c.left is not None and c.left <= min(together, alone / 2)
+    together, led = rules.decision.leads_together, 1 - decision.leading.takes if decision.leading else 1.0
+    most = min(together, led / 2, _CLEARLY * alone)
+    good = [k for k, c in enumerate(combinations) if c.left is not None and c.left <= most
             and (c.held_out_left or 0.0) <= together and not c.excluded]
     return min(good, key=lambda k: (combinations[k].held_out or 0.0, combinations[k].left), default=None)
 
