@@ -26,6 +26,7 @@ from pipeline.physics.virtual_rig.force_residual import (
     held_at_rest,
     missing_beside_rest,
     rate_doubt,
+    rates_of,
     smoothed,
     thinned,
 )
@@ -58,8 +59,9 @@ class Balance:
 
     def predicted(self, bench):
         """Forces (n, m) in N that the measured motion needs on this bench. ConfigError as of ``equation_residual``."""
-        motion = self._motion(bench)
-        left, resting = missing_beside_rest(bench, self.run, motion, self.rate_doubt, self.equation.corner)
+        motion, rates = self._motion(bench)
+        left, resting = missing_beside_rest(bench, self.run, motion, self.rate_doubt, self.equation.corner,
+                                            rates=rates)
         counted, left, lost = self._counted(bench, motion)[:, None], self._thinned(left), 0.0
         if resting:
             shares = [np.clip(self._thinned(r.share[None])[0], 0.0, 1.0) for r in resting]
@@ -86,17 +88,19 @@ class Balance:
 
     def left(self, bench):
         """(forces in N, displacements in m, velocities in m/s), each (n, m): forces missing on the coordinates."""
-        motion = self._motion(bench)
-        speed = np.gradient(motion, 1 / self.run.sample_rate, axis=1, edge_order=2)
+        motion, rates = self._motion(bench)
         return tuple(thinned(values, self.equation.decimation, self.equation.trim)
-                     for values in (forces_missing(bench, self.run, motion, self.equation.corner), motion, speed))
+                     for values in (forces_missing(bench, self.run, motion, self.equation.corner, rates), motion,
+                                    rates[0]))
 
     def _motion(self, bench):
-        """Filtered displacements (n, samples), kept for benches that read their channels alike."""
+        """(Filtered displacements (n, samples), their speed and acceleration), kept for benches that read channels alike.
+        """
         key = (bench.channels, bench.model.size)
         if key not in self.motions:
             self.motions.clear()
-            self.motions[key] = smoothed(bench, self.run, self.measured, self.equation.corner)
+            motion = smoothed(bench, self.run, self.measured, self.equation.corner)
+            self.motions[key] = motion, rates_of(motion, 1 / self.run.sample_rate, self.equation.corner)
         return self.motions[key]
 
 

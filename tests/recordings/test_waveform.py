@@ -28,5 +28,5 @@ def test_channels_that_say_enough_and_what_the_others_lack():
     told = []
     assert self_told(found, {"g/d": "N"}, None, "f", told.append) == {"g_a": ("g/a", None), "g_d": ("g/d", "N")}
     assert [line.partition(" left out: ")[0] for line in told] == ["f: g/b", "f: g/c", "f: g/e"]
-    assert told[1].endswith("the file states no unit; add units: {g_c: ...}") and "no even sampling; name it" in told[2]
+    assert told[1].endswith("the file states no unit; add units: {g_c: ...}") and "no sampling rate; name it" in told[2]
     assert self_told({"g/b": found["g/b"]}, {}, None, "f", told.append) == {"g_b": ("g/b", None)} and len(told) == 3

@@ -427,7 +427,7 @@ def test_units_and_abscissae_of_a_universal_file_are_set_in_the_case(tmp_path):
     assert float(found.runs["hammer"].channels["acc_1"].rate) == pytest.approx(1000)
     assert any("acc_1: unit 'G' is read as 9.80665 m/s^2" in line for line in told)
     found, told = told_by(tmp_path, files=[{**file, "units": {"acc_1": "mm/s^2"}}])
-    assert found.runs["hammer"].channels["acc_1"].samples[1] == pytest.approx(1e-3) and len(told) == 1
+    assert found.runs["hammer"].channels["acc_1"].samples[1] == pytest.approx(1e-3) and not told
 
 
 def test_channels_that_are_held_at_the_end_of_their_range_are_told(tmp_path):

@@ -11,7 +11,6 @@ from pipeline.inference.fitting.effective_sample_size import doubt
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 
-
 #: share of what one law leaves that several may leave to lead in its place
 _CLEARLY = 0.75
 

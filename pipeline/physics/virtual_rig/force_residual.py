@@ -128,18 +128,18 @@ def rate_doubt(bench, run, measured, corner, order=4):
     return np.sqrt(np.maximum(power, 0.0))      # running sums round below 0
 
 
-def forces_missing(bench, run, motion, corner=None):
+def forces_missing(bench, run, motion, corner=None, rates=None):
     """r (n, samples) of displacements (n, samples), differentiated; forces up to the ``corner`` in Hz."""
-    return missing_beside_rest(bench, run, motion, None, corner)[0]
+    return missing_beside_rest(bench, run, motion, None, corner, rates=rates)[0]
 
 
-def missing_beside_rest(bench, run, motion, doubt, corner=None, order=4):
+def missing_beside_rest(bench, run, motion, doubt, corner=None, order=4, rates=None):
     """(r as of ``forces_missing`` but for rigid dry friction at rest, [Resting] that it is without).
 
-    ``doubt`` as of ``rate_doubt``, None where speeds are exact.
+    ``doubt`` as of ``rate_doubt``, None where speeds are exact; ``rates``: those of the ``motion``, where known.
     """
     model, interval = bench.model, 1 / run.sample_rate
-    speed, inertia = _rates(motion, interval, corner)
+    speed, inertia = rates or rates_of(motion, interval, corner)
     turning = np.broadcast_to(run_drive(bench, run), run.samples)
     mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
     residual = mass @ inertia + damping @ speed + stiffness @ motion
@@ -152,7 +152,7 @@ def missing_beside_rest(bench, run, motion, doubt, corner=None, order=4):
     return residual + _below(run, forces, corner, order), resting
 
 
-def _rates(motion, interval, corner):
+def rates_of(motion, interval, corner):
     """(Speed, acceleration), each (n, samples): behind a low pass those of a spline; else central differences, which
     hold noise back and are exact under held forces."""
     if corner is not None:

@@ -44,7 +44,7 @@ def test_units_that_are_written_out_and_names_that_repeat():
 
 
 @pytest.mark.parametrize("key, values, rate", [
-    ("sampling frequency", ["51.2 kHz"], 51200), ("sample rate [khz]", ["2"], None), ("sample rate [kHz]", ["2"], 2000),
+    ("sampling frequency", ["51.2 kHz"], 51200), ("sample rate [khz]", ["2"], 2000), ("sample rate [kHz]", ["2"], 2000),
     ("delta_x", ["1.0E-4", "1.0E-4"], 1e4), ("delta_x", ["1.0E-4", "2.0E-4"], None), ("samplerate", ["5 kS/s"], 5000),
     ("operator", ["3"], None)])
 def test_what_a_head_says_of_the_sampling(key, values, rate):
