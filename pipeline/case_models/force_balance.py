@@ -94,8 +94,7 @@ class Balance:
                                     rates[0]))
 
     def _motion(self, bench):
-        """(Filtered displacements (n, samples), their speed and acceleration), kept for benches that read channels alike.
-        """
+        """(Filtered displacements (n, samples), their rates), kept for benches that read their channels alike."""
         key = (bench.channels, bench.model.size)
         if key not in self.motions:
             self.motions.clear()

@@ -130,12 +130,11 @@ def _figure(product, mode):
     shown = _order(product, mode)[:_ROWS]
     names = [in_words(product.parameter[p]) for p in shown]
     widths = [_scatter(product, mode, p) for p in shown]
-    return Figure(
-        pictures.tornado(product, mode, shown, names, widths),
-        f"Mode at {_frequency(product, mode)}, growth rate {_growth(product.mode_root[mode].real)} at"
-        f" {_where(product, mode)}: change of the growth rate by one standard deviation more of each value, which is"
-        " written beside its bar. Red: less stable; blue: more stable; hatched: scatter not declared. Dashed: stable"
-        " beyond.")
+    about = (f"Mode at {_frequency(product, mode)}, growth rate {_growth(product.mode_root[mode].real)} at"
+             f" {_where(product, mode)}: change of the growth rate by one standard deviation more of each value, which"
+             " is written beside its bar. Red: less stable; blue: more stable; hatched: scatter not declared. Dashed:"
+             " stable beyond.")
+    return Figure(pictures.tornado(product, mode, shown, names, widths), about)
 
 
 def _ranked(product):
