@@ -5,7 +5,7 @@ from functools import cache
 from importlib import import_module
 
 import stages
-from pipeline.contract.units import in_si
+from pipeline.contract.units import to_si
 
 #: what readers load at their first file: once in the parent, and not in every child
 _LOADED = ("asammdf", "meshio", "nptdms", "pint", "pyuff", "scipy.io", "scipy.ndimage", "scipy.sparse.csgraph",
@@ -20,7 +20,7 @@ def all_targets():
         warnings.simplefilter("ignore")
         for name in _LOADED:
             import_module(name)
-    in_si(1.0, "furlong/fortnight", "")     # pint makes its registry
+    to_si("1 furlong/fortnight", "m/s", "")     # pint makes its registry
     for name in stages.NAMES:
         stages.load(name).settings()
     return {target.name: target for name in _FILES for target in import_module(f"{__name__}.{name}").TARGETS}

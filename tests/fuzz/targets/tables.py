@@ -5,6 +5,7 @@ import json
 import numpy as np
 
 from pipeline.contract.settings import fill
+from pipeline.recordings.runs.imported import Imported
 from pipeline.recordings.sep005 import run_of
 from stages import recording
 from tests.fuzz.documents import reshaped
@@ -34,13 +35,12 @@ EXPECTED = {
         }
     )
 }
-REFUSED = recording._Refused(False, lambda text: None)
 
 
 def read(path, section=recording.Table, **given):
     """Plain values of the runs that the stage makes of a file."""
     settings = fill(section, {"file": str(path), **given}, "case.yaml: recording.files.0")
-    return plain.of_runs(recording.READ[settings.kind](settings, REFUSED))
+    return plain.of_runs(recording.READ[settings.kind](settings, Imported(False, lambda text: None)))
 
 
 def right(expected=EXPECTED, tolerance=1e-6):
