@@ -57,12 +57,11 @@ def test_forces_scale_with_size_and_pace_as_their_laws_say(hidden, size, pace):
 def test_the_nominal_bench_needs_what_the_inputs_give_and_another_mass_more():
     motions, bench = planned(pace=[0.5], **{"masses.block": [3.0]})
     slow, heavy = motions["pace x 0.5"], motions["masses.block x 3"]
-    np.testing.assert_allclose(slow.shown.predicted(bench), slow.shown.seen.samples, atol=1e-9)
-    motion = heavy.shown._motion(bench)[0]
-    more = heavy.shown.predicted(altered(bench, heavy.altered))[0] - heavy.shown.seen.samples[0]
-    rate = heavy.shown.run.sample_rate
-    np.testing.assert_allclose(more[1:-1], 2.0 * (motion[2:] - 2 * motion[1:-1] + motion[:-2]) * rate**2, rtol=1e-6,
-                               atol=1e-9)
+    inner = slice(60, -60)      # beyond the ends of the filter, which cases trim
+    np.testing.assert_allclose(slow.shown.predicted(bench)[:, inner], slow.shown.seen.samples[:, inner], atol=1e-9)
+    _, (_, inertia) = heavy.shown._motion(bench)
+    more = heavy.shown.predicted(altered(bench, heavy.altered)) - heavy.shown.seen.samples
+    np.testing.assert_allclose(more[:, inner], 2.0 * inertia[:, inner], rtol=1e-6, atol=1e-9)
 
 
 def test_without_a_section_motions_stay_within_the_recorded_ones():

@@ -91,7 +91,7 @@ def test_held_out_runs_are_predicted_where_asked_and_labelled(forward):
     written = as_json(found)["fit"]["held_out"]
     before, extra = written["recalibrated"], written["with_latent_force"]
     assert extra["label"] == LABEL and extra["by_run"].keys() == {"level_4"} and extra["value"] < 0.03 * before
-    assert extra["value"] == pytest.approx(written["noise_floor"], rel=0.05)
+    assert extra["value"] < 1.05 * written["noise_floor"]
     assert "not converged" not in found.latent_use.item()
     cubic, = (t["value"] for t in extra["force"] if t["term"] == "x^3")
     assert cubic == pytest.approx(-15000, rel=0.02)
