@@ -57,7 +57,7 @@ def test_forces_scale_with_size_and_pace_as_their_laws_say(hidden, size, pace):
 def test_the_nominal_bench_needs_what_the_inputs_give_and_another_mass_more():
     motions, bench = planned(pace=[0.5], **{"masses.block": [3.0]})
     slow, heavy = motions["pace x 0.5"], motions["masses.block x 3"]
-    inner = slice(60, -60)      # beyond the ends of the filter, which cases trim
+    inner = slice(100, -100)    # beyond the ends of the filter, which cases trim
     np.testing.assert_allclose(slow.shown.predicted(bench)[:, inner], slow.shown.seen.samples[:, inner], atol=1e-9)
     _, (_, inertia) = heavy.shown._motion(bench)
     more = heavy.shown.predicted(altered(bench, heavy.altered)) - heavy.shown.seen.samples
