@@ -262,13 +262,6 @@ def _from_waveforms(file, imported):
     return _cut(file, file.runs or {plain_name(file.file.stem, "run"): Stretch()}, whole, imported, stamp)
 
 
-def _refuse_unknown(file, columns, where):
-    """Refuse columns of the case that a file of these ``columns`` does not hold."""
-    for name, wanted in file.columns.items():
-        if wanted.column not in columns:
-            raise ConfigError(f"{where}{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
-
-
 def _from_uff(file, imported):
     found = runs("uff", file.file, imported.tell, units=file.units, time_unit=file.time_unit,
                  frequency_unit=file.frequency_unit, keep_going=imported.keep_going)["file"]
