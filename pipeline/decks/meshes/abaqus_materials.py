@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.decks.meshes.axes import Axes, middles, through
+from pipeline.decks.meshes.axes import Axes, in_elements, through
 from pipeline.decks.meshes.keywords import number, numbers
 from pipeline.decks.meshes.material import BY_COLUMNS, Material, Unread, symmetric
 
@@ -63,11 +63,7 @@ class Materials:
             raise ConfigError(block.where, f"axes of the material {material.name} that are read",
                               f"{orientation[1]}, {axes}",
                               "write *ORIENTATION, SYSTEM=RECTANGULAR or CYLINDRICAL with coordinates")
-        if not axes.cylindrical:
-            return axes.at((0.0, 0.0, 0.0))[0]
-        part.notes.append(f"{material.name}: along the cylindrical axes {orientation[1]}, in each element those at its"
-                          " middle")
-        return axes.at(middles(part, members))
+        return in_elements(axes, part, members, material, orientation[1])
 
     def _material(self, block, draft):
         self.current = block.need("NAME").upper()

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.decks.meshes.axes import Axes, middles, turn
+from pipeline.decks.meshes.axes import Axes, in_elements, turn
 from pipeline.decks.meshes.deck import listed, whole
 from pipeline.decks.meshes.keywords import number
 from pipeline.decks.meshes.material import BY_ROWS, Material, Unread, symmetric
@@ -139,10 +139,7 @@ def _axes(draft, numbers, material, system, systems):
     if found is None:
         raise ConfigError(f"{draft.where}, {material.name}", "constants along x, y, z (ESYS 0), or along a Cartesian or"
                           " cylindrical system that LOCAL gives", f"ESYS {system}", "write LOCAL, or x, y, z")
-    if not found.cylindrical:
-        return found.at((0.0, 0.0, 0.0))[0]
-    draft.notes.append(f"{material.name}: along the cylindrical axes {system}, in each element those at its middle")
-    return found.at(middles(draft, numbers))
+    return in_elements(found, draft, numbers, material, system)
 
 
 def _of_table(material, table):

@@ -59,6 +59,15 @@ def through(third, first, where):
     return rows / np.linalg.norm(rows, axis=1, keepdims=True)
 
 
+def in_elements(axes, draft, numbers, material, name):
+    """Axes of a ``material`` along a system ``axes``, of this ``name`` in the deck, as of ``Draft.sections``: (3, 3),
+    or of a cylindrical one, which the Draft notes, (k, 3, 3) of each of its elements ``numbers`` (k,)."""
+    if not axes.cylindrical:
+        return axes.at((0.0, 0.0, 0.0))[0]
+    draft.notes.append(f"{material.name}: along the cylindrical axes {name}, in each element those at its middle")
+    return axes.at(middles(draft, numbers))
+
+
 def middles(draft, numbers):
     """(k, 3) mean of the nodes of each element of a Draft, by their ``numbers`` (k,)."""
     position = dict(zip(draft.label, draft.position, strict=True))

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.decks.meshes.axes import Axes, middles, through
+from pipeline.decks.meshes.axes import Axes, in_elements, through
 from pipeline.decks.meshes.deck import whole
 from pipeline.decks.meshes.material import BY_ROWS, Material, Unread, symmetric
 from pipeline.decks.meshes.nastran_cards import number
@@ -118,10 +118,7 @@ def axes(draft, numbers, material, system, systems, where):
     if isinstance(found, str):
         raise ConfigError(where, f"axes of {material.name} that are read", found,
                           "write CORDM 0, or a CORD2R or CORD2C in the basic system")
-    if not found.cylindrical:
-        return found.at((0.0, 0.0, 0.0))[0]
-    draft.notes.append(f"{material.name}: along the cylindrical axes {label}, in each element those at its middle")
-    return found.at(middles(draft, numbers))
+    return in_elements(found, draft, numbers, material, label)
 
 
 HANDLERS = {"MAT1": _mat1, "MAT9": _mat9, "MAT11": _mat11, "CORD2R": _system, "CORD2C": _system,
