@@ -184,7 +184,7 @@ def _name(data_set):
 def _unit(data_set, case, system, axis="ordinate", direction="rsp_dir"):
     """(unit, factor on the numbers) of an ``axis``: of the case, of the set, or of the file (``system``); ('', 1) of
     none."""
-    unit = (case.unit if axis == "ordinate" else "") or _spelt(data_set.get(f"{axis}_axis_units_lab", ""))
+    unit = (case.unit if axis == "ordinate" else "") or _label(data_set, axis)
     if unit or system is None:
         return unit, 1.0
     powers = tuple(int(data_set.get(f"{axis}_{power}_unit_exp", 0)) for power in ("len", "force", "temp"))
@@ -198,14 +198,14 @@ def _turns(direction):
     return 4 <= abs(direction) <= 6
 
 
-def _spelt(label):
-    """A unit of a ``label``; '' of one that states none."""
-    return waveform.SPELT.get(label.strip(), label.strip())
+def _label(data_set, axis):
+    """The unit that the label of an ``axis`` states; '' of none."""
+    return waveform.unit_of(data_set.get(f"{axis}_axis_units_lab", "").strip())
 
 
 def _axis(data_set, stated, code, unit, case):
     """The abscissa in ``unit``, s or Hz, of a data set; ``stated``: its unit by the case, ``code``: its usual one."""
-    label, found = _spelt(data_set.get("abscissa_axis_units_lab", "")), int(data_set["abscissa_spec_data_type"])
+    label, found = _label(data_set, "abscissa"), int(data_set["abscissa_spec_data_type"])
     setting, expected = f"{'time' if unit == 's' else 'frequency'}_unit", f"{ABSCISSA[code]} as its abscissa"
     line = f"add {setting}: ..., the unit that its abscissa has"
     if not stated and (found in (19, 20) or (not label and found in ABSCISSA and found != code)):

@@ -10,8 +10,8 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import measured_in
 
-#: units as measurement systems write them, and as they are read; none where nothing is stated
-SPELT = {"NONE": "", "none": "", "-": "", "?": ""}
+#: what measurement systems write where they state no unit
+_NO_UNIT = frozenset({"NONE", "none", "-", "?"})
 
 #: 1990 in microseconds since 1970: earlier instants are those that programs begin to count at
 _SET = 631_152_000_000_000
@@ -46,6 +46,11 @@ def stamped(microseconds):
     return microseconds / 1e6, next(step / 1e6 for step in (10**6, 10**3, 1) if microseconds % step == 0)
 
 
+def unit_of(label):
+    """The unit that a ``label`` of a file states, '' of one that states none."""
+    return "" if label in _NO_UNIT else label
+
+
 def self_told(found, units, rate, where, tell):
     """{channel: (name in the file, unit of the case or None)} of the Waveforms ``found`` that say enough of themselves.
 
@@ -57,7 +62,7 @@ def self_told(found, units, rate, where, tell):
     for name, one in found.items():
         key = free_name(plain_name(name), told)
         stated = units.pop(name, units.pop(key, None))
-        unit = SPELT.get(one.unit, one.unit) if stated is None else stated
+        unit = unit_of(one.unit) if stated is None else stated
         even = rate or one.rate or (one.times is not None and len(one.times) > 1)
         lacks = [what for what, there in (("unit", unit), ("sampling rate", even)) if not there]
         remark = f" ({one.remark})" if one.remark else ""

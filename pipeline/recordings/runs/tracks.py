@@ -10,7 +10,7 @@ from pipeline.contract.units import in_si, measured_in
 from pipeline.recordings.apart import waveforms
 from pipeline.recordings.runs.even_times import on_even_times
 from pipeline.recordings.samples import channel, steady_tone
-from pipeline.recordings.waveform import SPELT, self_told
+from pipeline.recordings.waveform import self_told, unit_of
 
 #: kinds of a calibrator's file by its suffix; any other is sound
 _KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
@@ -66,7 +66,7 @@ def _tracks(found, file, where, tell, track):
 def _channel(track, waveform, where, line, imported):
     """The Channel of a track of a file; ``line``: what to write in the case of its unit."""
     written = waveform.unit if track.unit is None else track.unit
-    unit, factor = SPELT.get(written, written) or None, track.factor
+    unit, factor = unit_of(written) or None, track.factor
     if track.calibrator is not None:
         if track.unit is not None or factor != 1.0:
             raise ConfigError(f"{where}: calibrator", "no unit and no factor beside it, which it gives", "one of them")
@@ -77,8 +77,7 @@ def _channel(track, waveform, where, line, imported):
     measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit", line))
     imported.guessed(unit, measures, where)
     return channel(waveform.values, unit, measures, waveform.rate or np.nan, waveform.begin, where, factor=factor,
-                   narrow=True, role=track.role, place=track.place, direction=track.direction,
-                   line=line)
+                   narrow=True, role=track.role, place=track.place, direction=track.direction, line=line)
 
 
 def _pascal(calibrator, where):
