@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.views.chapters.bench.hypotheses import sentence
 from pipeline.views.chapters.chapter import Chapter, Figure
 from pipeline.views.figures.bench import response_functions as pictures
 from pipeline.views.figures.number_format import number, plural, quantity
@@ -22,11 +23,6 @@ def chapter(product, look):
                    " ".join(_sentence(name, test) for name, test in product.tests.items()), figures, ())
 
 
-def sentence(text):
-    """A remark as a sentence."""
-    return f"{text[:1].upper()}{text[1:]}."
-
-
 def remarks(product):
     """What was changed of given responses, or cannot be told of them, over all tests, in sentences; '' of nothing."""
     every = [(name, str(one)) for name, test in product.tests.items() for one in test.remark]
@@ -45,7 +41,7 @@ def _sentence(name, test):
     elif method == "given":
         told.append(", without a window; where the front end weighed its records by an exponential one,"
                     " response_functions.window_decay takes it off the damping ratios")
-    told.append("." + "".join(f" {sentence(str(one))}" for one in test.remark))
+    told.append("." + "".join(f" {sentence(one)}" for one in test.remark))
     if len(test.coherence):
         strong = np.sqrt(np.mean(abs(test.response) ** 2, axis=0)) >= np.median(abs(test.response))
         told.append(f" Where they are strong, their coherence is {number(np.median(test.coherence[:, strong]), 3)}.")

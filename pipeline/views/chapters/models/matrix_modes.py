@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.views.chapters.bench.hypotheses import sentence
 from pipeline.views.chapters.chapter import Block, Chapter, Figure, Table
 from pipeline.views.figures.models import matrix_modes as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
@@ -26,7 +27,7 @@ def system(matrices, look):
         f" of the files; terms hold for {quantity(float(matrices.reference_speed), 'rad/s')}.",
         "Speed and friction below are those over which the terms change, each over that of the matrices.", (),
         (Table(("term", "matrix", "times", "entries", "file"), rows, "Terms", (3,)),),
-        tuple(f"{str(remark)[0].upper()}{str(remark)[1:]}." for remark in matrices.remark))
+        tuple(map(sentence, matrices.remark)))
 
 
 def chapter(modes, look):
