@@ -16,7 +16,7 @@ import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.friction_paths import over_friction
-from pipeline.case_models.full_matrices import has_full_matrices, slid_on_elements
+from pipeline.case_models.matrices.full_matrices import has_full_matrices, slid_on_elements
 from pipeline.case_models.operating_modes import balances, growing, in_full, path_fields_of, unstable_fields
 from pipeline.case_models.steady_sliding import (
     Posed,

@@ -12,10 +12,11 @@ noise, or friction would explain noise.
 """
 
 import zlib
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.case_models.measured_motion import MeasuredMotion
 from pipeline.case_models.runs import Recorded
 from pipeline.contract import ConfigError
 from pipeline.physics.time_stepping.simulate import Start
@@ -24,13 +25,12 @@ from pipeline.physics.virtual_rig.force_residual import (
     coordinates,
     forces_missing,
     held_at_rest,
-    missing_beside_rest,
+    linear_forces,
     rate_doubt,
-    rates_of,
     smoothed,
     thinned,
 )
-from pipeline.physics.virtual_rig.response import Run
+from pipeline.physics.virtual_rig.response import Run, run_drive
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 #: samples of the parabola whose slope is the speed at the start
@@ -39,68 +39,46 @@ _FIRST = 7
 _LOST = 0.1
 
 
-@dataclass(frozen=True)
-class Balance:
+@dataclass(frozen=True, kw_only=True)
+class Balance(MeasuredMotion):
     """One recorded run: ``seen`` (Recorded) holds the applied forces (n, m) in N, one channel a coordinate.
 
-    ``run`` is the Run behind it, ``measured`` {channel: (samples,)} its displacements, ``equation`` the section;
-    ``size`` (n,) m is the standard deviation of the motion as the given bench reads it, ``rate_doubt`` (n, samples) m/s
-    that to which its speed is known, ``noise`` (n,) N that of the balance; ``motions`` holds the last filtered one.
+    ``size`` (n,) m is the standard deviation of the motion as the given bench reads it, ``noise`` (n,) N that of the
+    balance.
     """
 
     seen: Recorded
-    run: Run
-    measured: dict
-    equation: object
     size: np.ndarray
-    rate_doubt: np.ndarray | None = None
     noise: np.ndarray | float = 0.0
-    motions: dict = field(default_factory=dict, compare=False)
 
     def predicted(self, bench):
         """Forces (n, m) in N that the measured motion needs on this bench. ConfigError as of ``equation_residual``."""
-        motion, rates = self._motion(bench)
-        left, resting = missing_beside_rest(bench, self.run, motion, self.rate_doubt, self.equation.corner,
-                                            rates=rates)
-        counted, left, lost = self._counted(bench, motion)[:, None], self._thinned(left), 0.0
+        motion, thin = self.motion(bench)
+        drawn, resting = self.drawn(bench, motion)
+        applied = self.applied(bench)
+        if np.ndim(run_drive(bench, self.run)):
+            left = self.thinned(linear_forces(bench, self.run, motion))
+        else:
+            left = linear_forces(bench, self.run, thin)
+        left, lost = left + drawn - applied, 0.0
         if resting:
-            shares = [np.clip(self._thinned(r.share[None])[0], 0.0, 1.0) for r in resting]
-            resting = [r._replace(share=share) for r, share in zip(resting, shares, strict=True)]
             left, taken = held_at_rest(left, resting, np.broadcast_to(self.noise, len(left)))
             draw = np.random.default_rng(zlib.crc32(self.run.name.encode())).standard_normal(left.shape)
             lost = np.sqrt(taken) * np.reshape(self.noise, (-1, 1)) * draw
-        return self.seen.samples + counted * left + lost
-
-    def _counted(self, bench, motion):
-        """Factor (n,) of what is left on this bench: no gain of an input, or of a channel that makes the motion small,
-        makes it less."""
-        size, inputs = motion.std(axis=1), bench.model.input_rows.tobytes()
-        if inputs not in self.motions:
-            applied = applied_force(bench, self.run, self.equation.decimation, self.equation.trim,
-                                    self.equation.corner)
-            ways = [np.sqrt(np.mean(force**2)) for force in (self.seen.samples, applied)]
-            self.motions[inputs] = ways[0] / ways[1] if min(ways) > 0 else 1.0
-        as_measured = np.maximum(np.divide(self.size, size, out=np.ones(len(size)), where=size > 0), 1.0)
-        return as_measured * self.motions[inputs]
-
-    def _thinned(self, values):
-        return thinned(values, self.equation.decimation, self.equation.trim)
+        return self.seen.samples + self._counted(thin, applied)[:, None] * left + lost
 
     def left(self, bench):
         """(forces in N, displacements in m, velocities in m/s), each (n, m): forces missing on the coordinates."""
-        motion, rates = self._motion(bench)
-        return tuple(thinned(values, self.equation.decimation, self.equation.trim)
-                     for values in (forces_missing(bench, self.run, motion, self.equation.corner, rates), motion,
-                                    rates[0]))
+        motion, thin = self.motion(bench)
+        return (self.thinned(forces_missing(bench, self.run, motion, self.equation.corner)), thin.displacement,
+                thin.speed)
 
-    def _motion(self, bench):
-        """(Filtered displacements (n, samples), their rates), kept for benches that read their channels alike."""
-        key = (bench.channels, bench.model.size)
-        if key not in self.motions:
-            self.motions.clear()
-            motion = smoothed(bench, self.run, self.measured, self.equation.corner)
-            self.motions[key] = motion, rates_of(motion, 1 / self.run.sample_rate, self.equation.corner)
-        return self.motions[key]
+    def _counted(self, thin, applied):
+        """Factor (n,) of what is left on a bench that takes the motion for ``thin`` and the inputs for ``applied``: no
+        gain of an input, or of a channel that makes the motion small, makes it less."""
+        size, ways = thin.displacement.std(axis=1), [np.sqrt(np.mean(f**2)) for f in (self.seen.samples, applied)]
+        as_measured = np.maximum(np.divide(self.size, size, out=np.ones(len(size)), where=size > 0), 1.0)
+        return as_measured * (ways[0] / ways[1] if min(ways) > 0 else 1.0)
 
 
 def balance(bench, recorded, equation):
@@ -119,9 +97,10 @@ def balance(bench, recorded, equation):
     thin = Run(recorded.run.name, (applied.shape[1] - 1) / rate, rate, conditions=recorded.run.conditions)
     seen = Recorded(thin, channel_names(bench), ("N",) * len(applied), applied, np.ones(applied.shape, bool),
                     recorded.repeat_of)
-    size = smoothed(bench, recorded.run, measured, equation.corner).std(axis=1)
+    size = thinned(smoothed(bench, recorded.run, measured, equation.corner), equation.decimation, equation.trim)
     doubt = rate_doubt(bench, recorded.run, measured, equation.corner)
-    return Balance(seen, recorded.run, measured, equation, size, doubt)
+    return Balance(run=recorded.run, measured=measured, equation=equation, rate_doubt=doubt, seen=seen,
+                   size=size.std(axis=1))
 
 
 def refuse_unforced(name, applied, noise):

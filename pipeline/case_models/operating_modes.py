@@ -12,7 +12,7 @@ from itertools import compress
 import numpy as np
 
 from pipeline.case_models.friction_paths import followed, on_surface, path_fields
-from pipeline.case_models.full_matrices import Mode, full_modes
+from pipeline.case_models.matrices.full_matrices import Mode, full_modes
 from pipeline.physics.modal.disc_modes import by_plane, describe
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import first_of_each

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
-from pipeline.case_models.full_matrices import lacking_terms
+from pipeline.case_models.matrices.full_matrices import lacking_terms
 from pipeline.case_models.matrices.sliding_terms import NamedMatrix, sliding_state, terms_about, terms_of
 from pipeline.contract import ConfigError
 from pipeline.exports.run_products import described, operating_point, product_of, sliding_products

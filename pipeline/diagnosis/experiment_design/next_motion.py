@@ -12,7 +12,7 @@ import numpy as np
 from pipeline.case_models.force_balance import balance
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.experiment_design.next_run import Planned, changed, words
-from pipeline.physics.virtual_rig.force_residual import coordinates, forces_missing, rates_of
+from pipeline.physics.virtual_rig.force_residual import coordinates, forces_missing, moving
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 #: what a recorded motion is planned with: factors on its size about its middle, and on its speed
@@ -70,8 +70,7 @@ def _driven(bench, record, equation):
     """The Recorded with the inputs that its motion takes on the nominal bench."""
     names, idle = bench.model.input_name, replace(record.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
     motion = coordinates(bench, idle, _measured(bench, record))     # a balance filters it, and what it takes
-    rates = rates_of(motion, 1 / idle.sample_rate, equation.corner)
-    needed = forces_missing(bench, idle, motion, rates=rates)
+    needed = forces_missing(bench, idle, moving(motion, 1 / idle.sample_rate, equation.corner))
     force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
     return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True)), held=()))
 

@@ -21,7 +21,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.diagnosis.signals.forward_model import completed, shown
 from pipeline.diagnosis.signals.start_states import begun
 from pipeline.inference.problem import Problem
-from pipeline.physics.virtual_rig.force_residual import forces_missing
+from pipeline.physics.virtual_rig.force_residual import forces_missing, moving
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 
 #: names of the inputs along the coordinates
@@ -69,6 +69,7 @@ class AlongMotions:
         if bench.model.size != linear.model.size:
             raise ConfigError("measured motions", f"an effect within the {linear.model.size} measured coordinates",
                               f"{bench.model.size} coordinates")
+        motion = moving(motion, 1 / self._run(run).sample_rate)
         return forces_missing(linear, self._run(run), motion) - forces_missing(bench, self._run(run), motion)
 
     @property

@@ -32,6 +32,27 @@ _SMALLEST_SHARE = 1e-9
 _RESTING = 3.0
 
 
+class Motion(NamedTuple):
+    """``displacement`` m, ``speed`` m/s and ``acceleration`` m/s^2 of the coordinates, each (n, samples)."""
+
+    displacement: np.ndarray
+    speed: np.ndarray
+    acceleration: np.ndarray
+
+    def thinned(self, decimation, trim):
+        """The motion thinned out like the residual."""
+        return Motion(*(thinned(values, decimation, trim) for values in self))
+
+
+class Filter(NamedTuple):
+    """Second-order ``sections`` (s, 6), the ``state`` (s, 2) in which they pass a constant of 1 on, and how many
+    samples are added at both ends before it is run forth and back."""
+
+    sections: np.ndarray
+    state: np.ndarray
+    ends: int
+
+
 class Resting(NamedTuple):
     """Rigid dry friction along ``row`` (n,) while it rests, for a ``share`` (samples,) of each sample: any force of the
     element from -``backward`` to ``forward`` N."""
@@ -49,8 +70,8 @@ def equation_residual(bench, run, measured, corner=None, order=4, decimation=1, 
     sample is kept, behind a low pass; ``trim`` samples are left out at both ends first. Channels are read as the bench
     scales them. Raises ConfigError where the channels do not give every coordinate, or a contact does not yield.
     """
-    motion = smoothed(bench, run, measured, corner, order)
-    return thinned(missing_beside_rest(bench, run, motion, None, corner, order)[0], decimation, trim)
+    motion = moving(smoothed(bench, run, measured, corner, order), 1 / run.sample_rate, corner)
+    return thinned(forces_missing(bench, run, motion, corner, order), decimation, trim)
 
 
 def smoothed(bench, run, measured, corner=None, order=4):
@@ -58,15 +79,15 @@ def smoothed(bench, run, measured, corner=None, order=4):
     motion = coordinates(bench, run, measured)
     if corner is not None and not 0 < corner < run.sample_rate / 2:
         raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz", f"{corner:g} Hz")
-    return _below(run, motion, corner, order)
+    return below(run, motion, corner, order)
 
 
 def applied_force(bench, run, decimation=1, trim=0, corner=None):
     """Forces (n, samples) of the inputs of ``run`` on the coordinates, filtered and thinned out like the residual."""
-    return thinned(_below(run, _applied(bench, run), corner), decimation, trim)
+    return thinned(below(run, _applied(bench, run), corner), decimation, trim)
 
 
-def _below(run, values, corner, order=4):
+def below(run, values, corner, order=4):
     """Values (n, samples) behind the low pass of ``equation_residual``; as they are without a ``corner``."""
     return values if corner is None else _forth_and_back(_low_pass(order, 2 * corner / run.sample_rate), values)
 
@@ -77,42 +98,53 @@ def thinned(values, decimation, trim):
     return _forth_and_back(_before(decimation), values)[:, ::decimation] if decimation > 1 else values
 
 
-def _forth_and_back(sections, values):
-    """(n, samples) behind second-order ``sections``, run forth and back. ConfigError for runs shorter than their ends.
-    """
-    try:
-        return scipy.signal.sosfiltfilt(sections, values, axis=1)
-    except ValueError as error:
+def _forth_and_back(design, values):
+    """(n, samples) behind a Filter, run forth and back over ends turned about their last sample, as by
+    scipy.signal.sosfiltfilt, which finds the state of the sections anew each time. ConfigError for runs shorter than
+    its ends."""
+    sections, state, ends = design
+    if values.shape[1] <= ends:
         raise ConfigError("equation residual: run", "as many samples as the filters need at its ends",
-                          f"{values.shape[1]} samples ({error})",
-                          "take a longer stretch, decimate less, or state no corner") from None
+                          f"{values.shape[1]} samples, more than {ends} needed",
+                          "take a longer stretch, decimate less, or state no corner")
+    values = np.concatenate((2 * values[:, :1] - values[:, ends:0:-1], values,
+                             2 * values[:, -1:] - values[:, -2:-ends - 2:-1]), axis=1)
+    for _ in range(2):
+        values = scipy.signal.sosfilt(sections, values, 1, state[:, None, :] * values[None, :, :1])[0][:, ::-1]
+    return values[:, ends:values.shape[1] - ends]
 
 
 @lru_cache
 def _low_pass(order, corner):
-    return scipy.signal.butter(order, corner, output="sos")
+    return _filter(scipy.signal.butter(order, corner, output="sos"))
 
 
 @lru_cache
 def _before(decimation):
     """The filter of scipy.signal.decimate: Chebyshev's first kind, order 8, 0.05 dB up to 0.8 of the new range."""
-    return scipy.signal.cheby1(8, 0.05, 0.8 / decimation, output="sos")
+    return _filter(scipy.signal.cheby1(8, 0.05, 0.8 / decimation, output="sos"))
+
+
+def _filter(sections):
+    taps = 2 * len(sections) + 1 - min((sections[:, 2] == 0).sum(), (sections[:, 5] == 0).sum())
+    return Filter(sections, scipy.signal.sosfilt_zi(sections), 3 * int(taps))
 
 
 def coordinates(bench, run, measured):
     """Displacements (n, samples) that the displacement channels in ``measured`` show, gain, offset and delay undone."""
-    model, rows, values = bench.model, [], []
-    for channel in bench.channels:
-        if channel.measurand != DISPLACEMENT or channel.name not in measured:
-            continue
-        rows.append(bench.sensor(channel.source))
-        values.append(channel.measured(measured[channel.name], run.time))
-    rows = np.reshape(np.array(rows, float), (-1, model.size))
+    channels, shares = channel_shares(bench, measured)
+    return shares @ np.array([channel.measured(measured[channel.name], run.time) for channel in channels])
+
+
+def channel_shares(bench, names):
+    """(Displacement channels of a bench among ``names``, (n, c) what the coordinates are of each, in m per m)."""
+    channels = [c for c in bench.channels if c.measurand == DISPLACEMENT and c.name in names]
+    rows = np.reshape(np.array([bench.sensor(c.source) for c in channels], float), (-1, bench.model.size))
     share = np.linalg.svd(rows, compute_uv=False)
-    if len(rows) < model.size or share[-1] < _SMALLEST_SHARE * share[0]:
-        raise ConfigError("equation residual", f"displacement channels that give all {model.size} coordinates",
+    if len(rows) < bench.model.size or share[-1] < _SMALLEST_SHARE * share[0]:
+        raise ConfigError("equation residual", f"displacement channels that give all {bench.model.size} coordinates",
                           f"{len(rows)} channels", "measure more points, hold bodies, or simulate instead")
-    return np.linalg.pinv(rows) @ np.array(values)
+    return channels, np.linalg.pinv(rows)
 
 
 def rate_doubt(bench, run, measured, corner, order=4):
@@ -128,39 +160,59 @@ def rate_doubt(bench, run, measured, corner, order=4):
     return np.sqrt(np.maximum(power, 0.0))      # running sums round below 0
 
 
-def forces_missing(bench, run, motion, corner=None, rates=None):
-    """r (n, samples) of displacements (n, samples), differentiated; forces up to the ``corner`` in Hz."""
-    return missing_beside_rest(bench, run, motion, None, corner, rates=rates)[0]
+def forces_missing(bench, run, motion, corner=None, order=4):
+    """r (n, samples) of a Motion, forces of inputs, elements and contacts up to the ``corner`` in Hz."""
+    drawn = drawn_forces(bench, run, motion)[0]
+    return linear_forces(bench, run, motion) + below(run, drawn - _applied(bench, run), corner, order)
 
 
-def missing_beside_rest(bench, run, motion, doubt, corner=None, order=4, rates=None):
-    """(r as of ``forces_missing`` but for rigid dry friction at rest, [Resting] that it is without).
-
-    ``doubt`` as of ``rate_doubt``, None where speeds are exact; ``rates``: those of the ``motion``, where known.
-    """
-    model, interval = bench.model, 1 / run.sample_rate
-    speed, inertia = rates or rates_of(motion, interval, corner)
-    turning = np.broadcast_to(run_drive(bench, run), run.samples)
-    mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
-    residual = mass @ inertia + damping @ speed + stiffness @ motion
-    residual = residual + turning * (model.gyroscopic @ speed) + turning**2 * (model.centrifugal @ motion)
-    angle = scipy.integrate.cumulative_trapezoid(turning, dx=interval, initial=0.0)
-    instants = np.column_stack((run.time, angle, turning))
-    normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
-    elements, resting = _elements(model, motion, speed, instants, drawn, slip, doubt)
-    forces = elements - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn) - _applied(bench, run)
-    return residual + _below(run, forces, corner, order), resting
-
-
-def rates_of(motion, interval, corner):
-    """(Speed, acceleration), each (n, samples): behind a low pass those of a spline; else central differences, which
-    hold noise back and are exact under held forces."""
+def moving(displacement, interval, corner=None):
+    """Motion of displacements (n, samples): behind a low pass by a spline; else by central differences, which hold
+    noise back and are exact under held forces."""
     if corner is not None:
-        return derivatives(motion, interval)
-    speed = np.gradient(motion, interval, axis=1, edge_order=2)
+        return Motion(displacement, *derivatives(displacement, interval))
+    speed = np.gradient(displacement, interval, axis=1, edge_order=2)
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
-    inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
-    return speed, inertia
+    inertia[:, 1:-1] = (displacement[:, 2:] - 2 * displacement[:, 1:-1] + displacement[:, :-2]) / interval**2
+    return Motion(displacement, speed, inertia)
+
+
+def linear_forces(bench, run, motion):
+    """Forces (n, samples) of masses, joints and rotation that a Motion takes; the drive turns evenly for one thinned
+    out."""
+    model, (displacement, speed, acceleration) = bench.model, motion
+    mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
+    turning = np.broadcast_to(run_drive(bench, run), displacement.shape[1])
+    forces = mass @ acceleration + damping @ speed + stiffness @ displacement
+    if turning.any():
+        forces = forces + turning * (model.gyroscopic @ speed) + turning**2 * (model.centrifugal @ displacement)
+    return forces
+
+
+def drawn_forces(bench, run, motion, doubt=None):
+    """(Forces (n, samples) of elements, less those of contacts, along a Motion, [Resting] that they are without).
+
+    ``doubt`` as of ``rate_doubt``: with it rigid dry friction at rest is left out; None where speeds are exact.
+    """
+    model, instants = bench.model, _instants(bench, run)
+    if not len(model.contacts.area):
+        return element_forces(bench, run, motion, model.elements, doubt)
+    normal, drawn, slip = _contacts(bench, run, motion, instants)
+    elements, resting = _elements(model.elements, motion, instants, drawn, slip, doubt)
+    return elements - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn), resting
+
+
+def element_forces(bench, run, motion, elements, doubt=None):
+    """``drawn_forces`` of some Elements of a bench without contacts."""
+    none = np.zeros((0, motion.displacement.shape[1]))
+    return _elements(elements, motion, _instants(bench, run), none, none, doubt)
+
+
+def _instants(bench, run):
+    """(samples, 3): time in s, angle and speed of the drive."""
+    turning = np.broadcast_to(run_drive(bench, run), run.samples)
+    angle = scipy.integrate.cumulative_trapezoid(turning, dx=1 / run.sample_rate, initial=0.0)
+    return np.column_stack((run.time, angle, turning))
 
 
 def held_at_rest(residual, resting, noise):
@@ -188,11 +240,11 @@ def _applied(bench, run):
     return bench.model.input_rows.T @ forces
 
 
-def _elements(model, motion, speed, instants, drawn, slip, doubt):
+def _elements(elements, motion, instants, drawn, slip, doubt):
     """(sum_k b_k F_k (n, samples), [Resting] left out of it), contacts drawn at and slipping as said (c, samples)."""
-    rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
-    kernel, rate = alone(model.elements), rows @ speed
-    force, resting = _along(kernel, rows @ motion, rate, instants, no_memory(kernel), drawn, slip), []
+    rows = np.array([e.row for e in elements], float).reshape(-1, len(motion.displacement))
+    kernel, rate = alone(elements), rows @ motion.speed
+    force, resting = _along(kernel, rows @ motion.displacement, rate, instants, no_memory(kernel), drawn, slip), []
     for k in () if doubt is None else np.flatnonzero((kernel.kind == DRY) & np.isinf(kernel.parameter[:, 0])):
         still = abs(rate[k]) < _RESTING * np.sqrt(rows[k]**2 @ doubt**2)
         force[k, still] = 0.0
@@ -207,7 +259,8 @@ def _along(kernel, elongation, rate, instants, memory, drawn, slip):
     force, memory_end = np.zeros_like(elongation), memory.copy()
     for s in range(elongation.shape[1]):
         instant = (instants[s, 0], instants[s, 1], instants[s, 2])
-        update_turning_dampers(kernel, drawn[:, s], slip[:, s], rate[:, s])
+        if drawn.shape[0]:
+            update_turning_dampers(kernel, drawn[:, s], slip[:, s], rate[:, s])
         for k in range(elongation.shape[0]):
             begin = elongation[k, max(s - 1, 0)]
             force[k, s] = element_force(kernel, k, elongation[k, s], rate[k, s], begin, memory, memory_end, instant)[0]
@@ -216,14 +269,14 @@ def _along(kernel, elongation, rate, instants, memory, drawn, slip):
     return force
 
 
-def _contacts(bench, run, motion, speed, instants):
+def _contacts(bench, run, motion, instants):
     """(N, T, slip), each (c, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
-    normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
+    normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(len(instants))
     shift = _surface(contacts, instants)
-    gap = (read(bench.law, "gap", len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
-    opening = contacts.normal @ speed + shift[1]
-    slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    gap = (read(bench.law, "gap", len(fixed))[:, None] + contacts.normal @ motion.displacement) + shift[0]
+    opening = contacts.normal @ motion.speed + shift[1]
+    slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ motion.speed
     wear = np.broadcast_to(contacts.wear, len(fixed))
     for i in np.flatnonzero(~fixed):
         if wear[i]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.case_models.full_matrices import Mode, full_modes, slid_on_elements
+from pipeline.case_models.matrices.full_matrices import Mode, full_modes, slid_on_elements
 from pipeline.case_models.refinement import element_modes as searched
 from pipeline.case_models.refinement.element_modes import OperatingPoint, brake_of, element_modes, families
 from pipeline.case_models.refinement.finer_settings import finer

@@ -59,7 +59,7 @@ def test_the_nominal_bench_needs_what_the_inputs_give_and_another_mass_more():
     slow, heavy = motions["pace x 0.5"], motions["masses.block x 3"]
     inner = slice(100, -100)    # beyond the ends of the filter, which cases trim
     np.testing.assert_allclose(slow.shown.predicted(bench)[:, inner], slow.shown.seen.samples[:, inner], atol=1e-9)
-    _, (_, inertia) = heavy.shown._motion(bench)
+    inertia = heavy.shown.motion(bench)[1].acceleration
     more = heavy.shown.predicted(altered(bench, heavy.altered)) - heavy.shown.seen.samples
     np.testing.assert_allclose(more[:, inner], 2.0 * inertia[:, inner], rtol=1e-6, atol=1e-9)
 

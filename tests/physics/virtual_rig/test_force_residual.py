@@ -4,13 +4,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 from scipy.signal import decimate
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Polynomial, Power, iwan
 from pipeline.physics.time_stepping.simulate import Hard, Penalty
-from pipeline.physics.virtual_rig.force_residual import Resting, applied_force, equation_residual, held_at_rest, thinned
+from pipeline.physics.virtual_rig.force_residual import (
+    Resting,
+    applied_force,
+    below,
+    equation_residual,
+    held_at_rest,
+    thinned,
+)
 from pipeline.physics.virtual_rig.response import Bench, Run, respond
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.physics.lumps import belt, lumps
@@ -120,6 +128,14 @@ def test_samples_are_thinned_out_as_scipy_does():
     np.testing.assert_allclose(thinned(values, 10, 50), decimate(values[:, 50:-50], 10, axis=1, zero_phase=True),
                                atol=1e-10)
     assert thinned(values, 1, 0) is not values and np.array_equal(thinned(values, 1, 0), values)
+
+
+@pytest.mark.exact
+def test_filters_run_forth_and_back_are_those_of_scipy():
+    values, run = np.random.default_rng(3).standard_normal((2, 300)) + 2.0, Run("noise", 299 / RATE, RATE)
+    sections = scipy.signal.butter(4, 2 * 150 / RATE, output="sos")
+    np.testing.assert_allclose(below(run, values, 150.0), scipy.signal.sosfiltfilt(sections, values, axis=1),
+                               atol=1e-12)
 
 
 @pytest.mark.exact

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.case_models.full_matrices import Mode, full_modes, has_full_matrices
+from pipeline.case_models.matrices.full_matrices import Mode, full_modes, has_full_matrices
 from pipeline.contract import Context, ConvergenceError
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
 from pipeline.physics.stability.full_roots import sliding_as
