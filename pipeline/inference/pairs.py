@@ -32,7 +32,8 @@ def beside(asked, single, seconds):
     else ``single``, by one law of what was Asked."""
     for first in second_effect.leading(single, asked.settings.rules):
         pair, matters = _pair(asked, single, first, seconds)
-        why = matters and pair.decision.verdict == "missing" and _not_told(asked, single, first, pair)
+        why = matters and pair.decision.verdict == "missing" and (
+            second_effect.unconfirmed(first, pair, asked.settings.rules) or _not_told(asked, single, first, pair))
         if matters and not why:
             return replace(pair, combinations=single.combinations)
         if first in single.named:

@@ -59,6 +59,23 @@ def matters(pair, explained, rules):
     return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)
 
 
+def unconfirmed(first, pair, rules):
+    """Why what a ``pair`` names at the place of the Weighed ``first``, which it takes as known, may as well be another
+    form of that, in words; else ''.
+
+    On the runs that were fitted a second law makes up for the shape of a wrong first one. What tells them apart are
+    other runs, where the first alone does not predict them to the noise, or nominal values at odds with their priors.
+    """
+    law, told = first.candidate, ", ".join(pair.weighing.runs.powerless)
+    odd = len(pair.null.excluded(rules.calibration.excluded))
+    for each in pair.named:
+        if (each.candidate.places & law.places and not each.statistics.powered
+                and len(each.fit.excluded(rules.calibration.excluded)) >= odd):
+            return (f"{each.candidate.name} beside it may as well make up for another form of {law.name}, which "
+                    + (f"alone predicts {told} to the noise" if told else "no run is held out to tell"))
+    return ""
+
+
 def unnamed(single, pair, rules):
     """What explains most beside the law that a ``pair`` takes as known, a Weighed, where neither it nor the Diagnosis
     ``single`` names anything, though both laws leave no more than one may; else None."""

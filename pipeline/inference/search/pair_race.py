@@ -58,10 +58,13 @@ def race(problem, budget, single, catalogue, settings, fan_out):
     may leave as little as two laws may: at once where one reaches the noise, as no other comes lower, else in the end.
 
     The race goes on only where it is asked for another. A fault of a sensor or the solver beside a law is looked for
-    where that is taken as known.
+    where that is taken as known. Beside laws that tie a pair has to explain more than one of these alone, by the share
+    that a second law has to.
     """
     simple = tuple(c for c in catalogue if c.kind == "physics" and not c.elaborate)
     enough, pairs, told = several_laws.hoped(single.null, settings.rules), [], []
+    for tied in single.named:
+        enough = min(enough, tied.fit.objective - settings.rules.decision.second_share * tied.fit.betters(single.null))
     for first in firsts(single, settings.rules):
         found = [pair for pair in _beside(problem, budget, single.null, simple, settings, fan_out, first)
                  if set(pair.names) not in told]

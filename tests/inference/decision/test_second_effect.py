@@ -109,3 +109,20 @@ def test_a_name_of_less_evidence_alone_does_not_take_the_place_of_the_pair(solve
     assert not second_effect.better_alone(single, single)
     other = replace(single, decision=replace(single.decision, verdict="unknown", named=()))
     assert not second_effect.better_alone(other, single)
+
+
+@pytest.mark.parametrize("place, powered, odd, said", [
+    ("here", False, False, "another form of coulomb at here, which alone predicts take_4 to the noise"),
+    ("here", True, False, ""), ("there", False, False, ""), ("here", False, True, "")])
+def test_a_second_law_at_the_place_of_the_first_needs_runs_that_tell(place, powered, odd, said):
+    """On the runs that were fitted cubic stiffness and hysteresis together once stood for a quintic spring."""
+    def fit(*excluded):
+        return SimpleNamespace(excluded=lambda beyond: excluded)
+
+    first = SimpleNamespace(candidate=SimpleNamespace(name="coulomb at here", places={"here"}))
+    second = SimpleNamespace(candidate=SimpleNamespace(name="backlash", places={place}), fit=fit(),
+                             statistics=SimpleNamespace(powered=powered))
+    pair = SimpleNamespace(named=(second,), null=fit(*["mass"] * odd), weighing=SimpleNamespace(
+        runs=SimpleNamespace(powerless=("take_4",))))
+    assert said in second_effect.unconfirmed(first, pair, DEFAULTS)
+    assert bool(said) == bool(second_effect.unconfirmed(first, pair, DEFAULTS))

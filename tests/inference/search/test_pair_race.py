@@ -47,8 +47,21 @@ def test_only_simple_laws_of_physics_run(monkeypatch):
     monkeypatch.setattr(pair_race, "_beside", lambda problem, budget, null, laws, *_: asked.extend(laws) or [])
     fit = SimpleNamespace(counts=np.array([100]), chi_square=np.array([300.0]))
     catalogue = tuple(replace(c, elaborate=c.name == "coulomb") for c in CATALOGUE)
-    assert not list(race(None, None, SimpleNamespace(null=fit), catalogue, Settings(), map))
+    assert not list(race(None, None, SimpleNamespace(null=fit, named=()), catalogue, Settings(), map))
     assert {c.name for c in CATALOGUE} - {c.name for c in asked} == {"coulomb", "sensor_gain"}
+
+
+@pytest.mark.parametrize("left, wins", [(102.0, False), (101.0, True)])
+def test_beside_laws_that_tie_a_pair_has_to_explain_more_than_one_of_them(monkeypatch, left, wins):
+    """Of 1000 above the noise the tied law leaves 110; a second one has to take a hundredth of 890 off."""
+    fit, pair = (SimpleNamespace(objective=o, reaches_noise=lambda _: False) for o in (110.0, left))
+    monkeypatch.setattr(pair_race, "firsts", lambda *_: ["first"])
+    monkeypatch.setattr(pair_race, "_beside", lambda *_: [pair_race.Pair(*CATALOGUE[:2], pair)])
+    monkeypatch.setattr(pair_race, "advanced", lambda problem, enough, fit, iterations: fit)
+    fit.betters = lambda null: null.objective - fit.objective
+    null = SimpleNamespace(counts=np.array([60]), chi_square=np.array([1060.0]), objective=1000.0)
+    tie = SimpleNamespace(null=null, named=(SimpleNamespace(fit=fit),))
+    assert bool(list(race(None, None, tie, CATALOGUE, Settings(), map))) is wins
 
 
 def weighed(name, gain, law="", **more):
