@@ -12,6 +12,8 @@ HEAD = ("frequency", "growth / 1/s", "damping ratio / %", "-2 Re/|Im| / %", "60 
 CONVENTIONS = ("Growth: Re s of the eigenvalue s. Damping ratio: -Re s/|s|; Abaqus, Nastran and OptiStruct print"
                " -2 Re s/|Im s|. A mode grows where Re s > 0 and both ratios are negative. 60 dB in: time in which its"
                " velocity grows a thousandfold.")
+_UNSTABLE = "unstable modes, each frequency once, where it grows most"
+_STABLE = "no mode is unstable; the least stable ones"
 #: least stable modes that are shown where none is unstable
 _LEAST_STABLE = 3
 #: modes nearer than this share of their frequency are one
@@ -27,7 +29,7 @@ def of_case(modes):
     """(title, rows, sentences) of ComplexModes: the unstable modes, each frequency once, else the least stable ones."""
     chosen = distinct_unstable(modes, len(modes.unstable_root))
     if not chosen:
-        return "no mode is unstable; the least stable ones", _least_stable(modes), []
+        return _STABLE, _least_stable(modes), []
     rows = []
     for k in chosen:
         critical = critical_friction(modes, k)
@@ -35,18 +37,20 @@ def of_case(modes):
         rows.append(_row(modes.unstable_root[k], onset, _point(modes, modes.unstable_operating[k])))
     told = [f"{quantity(modes.unstable_root[k].imag / TWO_PI, 'Hz')}: {explanation(modes, k)} {_parts(modes, k)}"
             for k in chosen[:_EXPLAINED] if k in modes.followed_mode]
-    return "unstable modes, each frequency once, where it grows most", rows, told
+    return _UNSTABLE, rows, told
 
 
 def of_matrices(modes):
     """The same of MatrixModes."""
     found = modes.roots
-    order = np.argsort(-found.unstable_root.real, kind="stable")
-    chosen = _distinct(found.unstable_root[order])
-    rows = [_row(found.unstable_root[k], "—", f"{quantity(found.speed[found.unstable_operating[k]], 'rad/s', 3)},"
-                 f" friction × {number(float(modes.friction), 3)}") for k in order[chosen]]
-    matters = dict(matrix_modes.note(modes))["What matters"]
-    return "unstable modes, each frequency once, where it grows most", rows, [matters] if matters else []
+    grows = len(found.unstable_root) > 0
+    root, point = (found.unstable_root, found.unstable_operating) if grows else (found.root, found.root_operating)
+    order = np.argsort(-root.real, kind="stable")
+    rows = [_row(root[k], "—", f"{quantity(found.speed[point[k]], 'rad/s', 3)}, friction ×"
+                 f" {number(float(modes.friction), 3)}") for k in order[_distinct(root[order])]]
+    if not grows:
+        return _STABLE, rows[:_LEAST_STABLE], []
+    return _UNSTABLE, rows, [dict(matrix_modes.note(modes))["What matters"]]
 
 
 def matters(derived):

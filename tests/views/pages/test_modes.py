@@ -11,6 +11,7 @@ from pipeline.views.figures.number_format import MINUS, THIN
 from pipeline.views.pages import modes as page
 from tests.commands import brakechain
 from tests.views import products_for_views as small
+from tests.views.test_matrix_modes_chapter import modes as matrix_modes
 
 HZ = 2 * np.pi
 
@@ -54,6 +55,15 @@ def test_without_an_unstable_mode_the_least_stable_ones_are_shown(tmp_path):
     assert "expected complex_modes.h5 or matrix_modes.h5" in failed.stderr
     refused = brakechain("modes", tmp_path, "--heard", "2750", code=2)
     assert "--heard" in refused.stderr and "Hz" in refused.stderr
+
+
+def test_modes_of_matrices_are_shown_and_a_frequency_beside_them(tmp_path):
+    store.write(matrix_modes(), tmp_path / "matrix_modes.h5", {})
+    shown = plain(brakechain("modes", tmp_path, "--heard", "1.49 kHz").stdout)
+    assert "800 Hz" in shown and "friction × 1" in shown and "friction, everywhere +5" in shown
+    assert "0.67 % below the nearest mode at 1.5 kHz, 84 % above the unstable mode at 810 Hz" in shown
+    title, rows, told = page.of_matrices(matrix_modes(unstable=0))
+    assert "no mode is unstable" in title and 0 < len(rows) <= 3 and not told
 
 
 def test_what_the_motion_settles_to_is_told_beside_the_nearest_unstable_mode():
