@@ -49,8 +49,8 @@ class Settings(Section):
     low_window: Quantity("s", gt=0) = option("200 ms", "length of a frame for tones below the squeal band")
     lowest_tone: Quantity("Hz", gt=0) = option("20 Hz", "tones from here on are told")
     modes: dict[str, Quantity("Hz", gt=0)] = option({}, "natural frequencies by name, to compare the events with")
-    modes_file: InputFile | None = option(None, "modes of another run to compare the events with: its complex_modes.h5"
-                                          " or modal_test.h5")
+    modes_file: InputFile | None = option(None, "modes of another run to compare the events with: its complex_modes.h5,"
+                                          " matrix_modes.h5 or modal_test.h5")
     bins: int = option(10, "most bins of a condition in the maps of squeal over two of them", ge=2, le=40)
     near: float = option(0.03, "largest distance of an event from a mode near it, as a share", gt=0, lt=0.3)
 

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract import ConfigError, store
-from pipeline.products import ComplexModes, ModalTest
+from pipeline.products import ComplexModes, MatrixModes, ModalTest
 
 #: roots whose frequencies differ by less than this share are one mode
 _SAME = 5e-3
 #: products that hold modes, and what it takes to read them
 _READ = {"complex_modes": (ComplexModes, lambda product: _complex(product)),
+         "matrix_modes": (MatrixModes, lambda product: _of_matrices(product)),
          "modal_test": (ModalTest, lambda product: _tested(product))}
 
 
@@ -61,10 +62,20 @@ def named_modes(stated, file, where):
 
 def _complex(product):
     """(name, frequency, unstable) of the modes: means over the operating points, unstable where it is so at any."""
-    frequency = np.abs(product.operating_root.imag).mean(axis=0) / (2.0 * np.pi)
-    frequency = frequency[frequency > 0.0]
+    return _marked(np.abs(product.operating_root.imag).mean(axis=0), product.unstable_root)
+
+
+def _of_matrices(product):
+    """(name, frequency, unstable) of the modes of the first operating point, and of those that are unstable at any."""
+    found = product.roots
+    return _marked(np.abs(found.root[found.root_operating == 0].imag), found.unstable_root)
+
+
+def _marked(angular, growing):
+    """(name, frequency, unstable) of modes at ``angular`` frequencies, those of the ``growing`` roots marked."""
+    frequency = angular[angular > 0.0] / (2.0 * np.pi)
     unstable = np.zeros(len(frequency), int)
-    for squealing in np.abs(product.unstable_root.imag) / (2.0 * np.pi):
+    for squealing in np.abs(growing.imag) / (2.0 * np.pi):
         near = abs(frequency / squealing - 1.0) < _SAME if squealing > 0.0 else np.zeros(len(frequency), bool)
         if near.any():
             unstable[np.argmin(abs(frequency - squealing))] = 1

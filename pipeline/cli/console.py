@@ -29,7 +29,8 @@ def table(title, head, rows, note=""):
         shown.add_row(*row)
     console = Console(highlight=False)
     if not console.is_terminal:
-        console.width = max(console.width, sum(max(map(len, column)) + 3 for column in zip(head, *rows, strict=True)))
+        needed = 1 + sum(max(map(len, column)) + 3 for column in zip(head, *rows, strict=True))
+        console.width = max(console.width, needed)
     console.print(shown)
     console.print(note, markup=False)
 

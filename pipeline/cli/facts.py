@@ -1,4 +1,4 @@
-"""The command that shows the computed numbers of published facts, and records them."""
+"""The commands that show numbers of a run: published facts beside ours, which are recorded too, and the modes."""
 
 import json
 import re
@@ -91,3 +91,44 @@ def _computed(folder):
     origins = [store.provenance(path) for path in sorted(folder.glob("*.h5"))]
     kernels = {kernel for origin in origins for kernel in json.loads(origin.get("kernels", "[]"))}
     return comparison, {"commits": sorted({origin["git_commit"] for origin in origins}), "kernels": sorted(kernels)}
+
+
+@click.command()
+@click.argument("folder", metavar="RUN", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.option("--heard", multiple=True, metavar="F", help="a frequency that was measured, such as \"2.75 kHz\": how far"
+              " from a mode, and how often by chance; may be repeated")
+@click.option("--near", type=click.FloatRange(0, 0.3, True, True), default=0.03, show_default=True,
+              help="share of its frequency within which a mode is near")
+@options("debug")
+def modes(folder, heard, near):
+    """Show the unstable modes of the folder RUN: growth, damping ratios, onset over friction, and why they grow.
+
+    Where none is unstable, the least stable ones.
+    """
+    import numpy as np
+
+    from pipeline import products
+    from pipeline.case_models.named_modes import named_modes
+    from pipeline.cli.console import table
+    from pipeline.contract import ProductError, store
+    from pipeline.contract.units import to_si
+    from pipeline.views.pages import modes as page
+
+    def stored(product):
+        file = folder / f"{product.name}.h5"
+        return store.read(product, file) if file.exists() else None
+
+    measured = [to_si(given, "Hz", "--heard") for given in heard]
+    of_case, of_matrices = stored(products.ComplexModes), stored(products.MatrixModes)
+    if of_case is None and of_matrices is None:
+        raise ProductError(folder, "complex_modes.h5 or matrix_modes.h5", "neither", "run a case up to its modes")
+    title, rows, reasons = page.of_matrices(of_matrices) if of_case is None else page.of_case(of_case)
+    motion = next(filter(None, map(stored, (products.LimitCycle, products.Transient))), None)
+    table(title, page.HEAD, rows)
+    unstable = (of_matrices.roots if of_case is None else of_case).unstable_root.imag / (2 * np.pi)
+    told = [*reasons, *page.matters(stored(products.Sensitivities)), *page.cycles(motion, unstable)]
+    if measured:
+        file = folder / f"{(of_matrices if of_case is None else of_case).name}.h5"
+        told += page.beside(named_modes({}, file, folder), measured, near)
+    for sentence in (*told, page.CONVENTIONS):
+        click.echo(sentence.replace("\u202f", " "))

@@ -14,7 +14,7 @@ from pipeline import __version__
 from pipeline.cli.bench.catalogue import catalogue
 from pipeline.cli.bench.check import check
 from pipeline.cli.bench.data import data
-from pipeline.cli.facts import facts
+from pipeline.cli.facts import facts, modes
 from pipeline.cli.first_use import compiled
 from pipeline.cli.new_case import new
 from pipeline.cli.options import options
@@ -306,6 +306,7 @@ cli.add_command(check)
 cli.add_command(catalogue)
 cli.add_command(run_export)
 cli.add_command(facts)
+cli.add_command(modes)
 cli.add_command(compiled)
 cli.add_command(new)
 cli.add_command(trial)

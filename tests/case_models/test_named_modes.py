@@ -52,8 +52,8 @@ def test_measured_modes_are_named_by_run_and_other_files_refused(tmp_path):
     assert isinstance(tested, ModalTest) and len(modes.name) == sum(len(r.frequency) for r in tested.runs.values())
     assert set(modes.unstable) == {-1}
     store.write(small.surface(), tmp_path / "surface.h5", {})
-    with pytest.raises(ConfigError, match="expected a product complex_modes or modal_test of a run, found surface"):
+    with pytest.raises(ConfigError, match="a product complex_modes or matrix_modes or modal_test of a run, found"):
         named_modes({}, tmp_path / "surface.h5", "here")
     (tmp_path / "text.h5").write_text("no")
-    with pytest.raises(ConfigError, match="expected a product complex_modes or modal_test"):
+    with pytest.raises(ConfigError, match="expected a product complex_modes or matrix_modes"):
         named_modes({}, tmp_path / "text.h5", "here")

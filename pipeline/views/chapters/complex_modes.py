@@ -86,7 +86,8 @@ def _table(modes, most=12):
                      quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
                      str(modes.operating_open[point])))
     head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
-    title = "Unstable modes, most unstable first, each frequency once"
+    title = ("Unstable modes, most unstable first, each frequency once; damping ratio: \N{MINUS SIGN}Re s/|s| of the"
+             " eigenvalue s, half of what Abaqus and Nastran print")
     return (Table(head, tuple(rows), title, tuple(range(7))), _shapes(modes, chosen), _reasons(modes, chosen),
             *_in_full(modes, chosen))
 

@@ -118,7 +118,7 @@ def _movers(modes, k):
 
 
 def _signed(value):
-    return ("+" if value > 0 else "\N{MINUS SIGN}") + number(abs(value), 3)
+    return ("+" if value > 0 else "\N{MINUS SIGN}" if value < 0 else "") + number(abs(value), 3)
 
 
 def _table(modes):
