@@ -6,7 +6,7 @@ The laws and their signs are those of ``element_forces``. Every law has values a
 carry the linear part; an element that takes something away from a joint does so by a negative ``linear``.
 """
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -262,7 +262,7 @@ def element_kernel(elements, waviness, wear=(), captured=False, **linear):
     parameter = np.zeros((len(elements), 6))
     for k, element in enumerate(elements):
         law = element.law
-        values = (law.linear,) if isinstance(law, Sliders | Maxwell) else astuple(law)
+        values = (law.linear,) if isinstance(law, Sliders | Maxwell) else tuple(vars(law).values())
         parameter[k, :len(values)] = values
         if isinstance(law, Dry):
             parameter[k, 5] = float(captured)

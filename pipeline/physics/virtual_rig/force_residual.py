@@ -210,9 +210,10 @@ def element_forces(bench, run, motion, elements, doubt=None):
 
 def _instants(bench, run):
     """(samples, 3): time in s, angle and speed of the drive."""
-    turning = np.broadcast_to(run_drive(bench, run), run.samples)
-    angle = scipy.integrate.cumulative_trapezoid(turning, dx=1 / run.sample_rate, initial=0.0)
-    return np.column_stack((run.time, angle, turning))
+    time, turning = run.time, run_drive(bench, run)
+    if not np.ndim(turning):
+        return np.column_stack((time, turning * time, np.full(len(time), turning)))
+    return np.column_stack((time, scipy.integrate.cumulative_trapezoid(turning, time, initial=0.0), turning))
 
 
 def held_at_rest(residual, resting, noise):
