@@ -74,6 +74,8 @@ class DecisionRules:
     leads: float = threshold(0.05, "posterior without which nothing is told as the leading explanation")
     leads_together: float = threshold(0.25, "fraction of the excess error that laws may leave together which are told"
                                             " as the leading explanation")
+    leads_clearly: float = threshold(0.75, "fraction of what one law leaves that several may leave to lead in its"
+                                           " place")
     one_factor: float = threshold(1.5, "factor by which a candidate that moves all nominal values alike explains"
                                        " nothing")
     outweighed: float = threshold(1.0, "posterior of the candidates that break no rule over that of those that do")

@@ -11,9 +11,6 @@ from pipeline.inference.fitting.effective_sample_size import doubt
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 
-#: share of what one law leaves that several may leave to lead in its place
-_CLEARLY = 0.75
-
 
 @dataclass(frozen=True)
 class Needed:
@@ -112,7 +109,7 @@ def leading(combinations, decision, rules, alone=1.0):
     if decision.verdict != "unknown":
         return None
     together, led = rules.decision.leads_together, 1 - decision.leading.takes if decision.leading else 1.0
-    most = min(together, led / 2, _CLEARLY * alone)
+    most = min(together, led / 2, rules.decision.leads_clearly * alone)
     good = [k for k, c in enumerate(combinations) if c.left is not None and c.left <= most
             and (c.held_out_left or 0.0) <= together and not c.excluded]
     return min(good, key=lambda k: (combinations[k].held_out or 0.0, combinations[k].left), default=None)
