@@ -46,7 +46,7 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
         runs = started(whole, runs, settings, refused := {})
         answers = context.map(partial(_shown, whole), list(runs.values()), "runs")
     for why in refused.values():
-        context.log(why)
+        context.remark(why)
     results = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
     units = {c: u for one in runs.values() for c, u in zip(one.channels, one.unit, strict=True)}
     for name, one in results.items():

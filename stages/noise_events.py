@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 
@@ -126,11 +127,12 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
     if strange:
         raise ConfigError("noise_events.channels", "channels of the recording", ", ".join(sorted(strange)))
     found = context.map(partial(_searched, settings=settings), tasks, "noise events")
-    for (name, key, *_), result in zip(tasks, found, strict=True):
-        if isinstance(result, str):
-            context.log(f"{name}, {key}: not searched: {result}")
+    remarks = [f"{name}, {key}: not searched: {result}" for (name, key, *_), result in zip(tasks, found, strict=True)
+               if isinstance(result, str)]
+    for remark in remarks:
+        context.remark(remark)
     kept = [(task, result) for task, result in zip(tasks, found, strict=True) if not isinstance(result, str)]
-    return _product(kept, recording, modes, settings)
+    return replace(_product(kept, recording, modes, settings), remarks=remarks)
 
 
 def _kind(name, channel, settings):

@@ -63,30 +63,32 @@ def orders(recording: Recording, settings: Settings, context: Context) -> Orders
     is of Hann frames of {window}, sorted by their mean speed.
     """
     _check_names(recording, settings)
-    tasks = []
+    tasks, remarks = [], []
     for name, run in recording.runs.items():
         shaft = _shaft(run, settings)
         if shaft is None:
             continue
         turning = _turning(run.channels[shaft], settings.pulses)
         if turning is None:
-            context.log(f"{name}: the tacho {shaft} gives fewer than three pulses: no orders")
+            remarks.append(f"{name}: the tacho {shaft} gives fewer than three pulses: no orders")
             continue
         if turning.remark:
-            context.log(f"{name}, {shaft}: {turning.remark}")
+            context.remark(f"{name}, {shaft}: {turning.remark}")
         if np.ptp(turning.speed) < settings.variation * turning.speed.max() or not turning.speed.max():
-            context.log(f"{name}: the speed {shaft} varies by less than {settings.variation:g} of its highest value:"
-                        " no orders")
+            remarks.append(f"{name}: the speed {shaft} varies by less than {settings.variation:g} of its highest value:"
+                           " no orders")
             continue
         tasks += [(name, key, channel, shaft, turning) for key, channel in run.channels.items()
                   if key != shaft and _wanted(key, channel, settings)]
     made = {}
     for task, result in zip(tasks, context.map(partial(_tracked, settings=settings), tasks, "orders"), strict=True):
         if isinstance(result, str):
-            context.log(f"{task[0]}, {task[1]}: no orders: {result}")
+            remarks.append(f"{task[0]}, {task[1]}: no orders: {result}")
         else:
             made[f"{task[0]}.{task[1]}"] = result
-    return Orders(spectra=made)
+    for remark in remarks:
+        context.remark(remark)
+    return Orders(spectra=made, remarks=remarks)
 
 
 def _check_names(recording, settings):

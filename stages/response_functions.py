@@ -75,7 +75,7 @@ def response_functions(recording: Recording, settings: Settings, context: Contex
     tests = context.map(partial(_of_run, settings=settings), items, "frequency responses")
     for name, test in zip(chosen, tests, strict=True):
         for told in (*test.remark, *(f"left out: {blow}" for blow in test.left_out)):
-            context.log(f"{name}: {told}")
+            context.remark(f"{name}: {told}")
     if settings.together and len(tests) > 1:
         if any(str(one.method) == METHODS["blows"] for one in tests):
             tests = context.map(partial(_of_run, settings=settings, window=_common_window(tests)), items, "one window")

@@ -87,7 +87,7 @@ class OccurrenceMap:
 OWN_TONES = ("squeal", "moan", "groan", "judder")
 
 
-@product(version=5)
+@product(version=6)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""
 
@@ -124,6 +124,7 @@ class NoiseEvents:
     listen: dict[str, Excerpt] = parts("squeal: the loudest, to listen to; nothing where there is none", empty=True)
     maps: dict[str, OccurrenceMap] = parts("squeal over two conditions, named first.second", empty=True)
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
+    remarks: Array = text("remark", "channels that were not searched, and why", empty=True)
 
 
 @product(version=2)
@@ -149,8 +150,9 @@ class OrderSpectra:
     frames: Array = count("bin", "frames in each bin of speed")
 
 
-@product(version=2)
+@product(version=3)
 class Orders:
     """Orders of the recordings of a bench. Empty where no channel tells a speed that varies."""
 
     spectra: dict[str, OrderSpectra] = parts("of each channel, named run.channel", empty=True)
+    remarks: Array = text("remark", "what has no orders, and why", empty=True)

@@ -82,11 +82,12 @@ def test_what_is_too_slow_or_too_short_is_told():
     told = []
     slow = run({"mic": channel(NOISE, "Pa", "sound_pressure", 3000.0, 0.0, "mic")})
     brief = run({"mic": channel(NOISE[:4000], "Pa", "sound_pressure", RATE, 0.0, "mic")})
-    context = SimpleNamespace(log=told.append, map=lambda f, items, _: [f(item) for item in items])
+    context = SimpleNamespace(remark=told.append, map=lambda f, items, _: [f(item) for item in items])
     found = noise_events(Recording(source=[], runs={"slow": slow, "brief": brief}), settings=Settings(),
                          context=context)
     assert not len(found.record_run) and not len(found.event_kind)
     assert "does not reach the squeal band" in told[0] and "shorter than three frames" in told[1]
+    assert list(found.remarks) == told
 
 
 def test_without_channels_of_sound_nothing_is_found():
@@ -188,7 +189,7 @@ def test_a_product_in_its_file_gives_the_events_of_one_in_memory(tmp_path, monke
     assert store.content_hash(noise_events(outside, settings=Settings())) == expected
     with closing(LocalProcesses(2)) as work:
         context = SimpleNamespace(map=lambda function, items, _: work.map(function, items, lambda: None),
-                                  log=lambda _: None)
+                                  remark=lambda _: None)
         assert store.content_hash(noise_events(outside, settings=Settings(), context=context)) == expected
 
 

@@ -22,7 +22,8 @@ def run(speed=SLOW, unit="rad/s", measures="angular_velocity", begin=0.0, **more
 
 
 def found(recording, told=None, **settings):
-    context = SimpleNamespace(log=([] if told is None else told).append, map=lambda f, items, _: [f(i) for i in items])
+    context = SimpleNamespace(remark=([] if told is None else told).append,
+                              map=lambda f, items, _: [f(i) for i in items])
     return orders(recording, settings=Settings(**settings), context=context).spectra
 
 

@@ -189,7 +189,7 @@ def noise_events(quiet=False):
         mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03,
         event_chance=np.array([[0.06, 0.03], [0.08, 0.0], [0.02, 0.01], [0.0, 0.0], [0.06, 0.03]])[kept],
         event_mode=np.array([0, -1, -1, -1, 0])[kept], maps={} if quiet else {"pressure.speed": occurrence_map()},
-        listen={} if quiet else {"squeal": excerpt("Pa", "run stop_1, mic")},
+        remarks=[], listen={} if quiet else {"squeal": excerpt("Pa", "run stop_1, mic")},
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
 
 

@@ -37,6 +37,8 @@ def test_none_that_stands_out_and_no_varying_speed():
     quiet = chapter(small.orders(quiet=True), LOOK)
     assert len(quiet.figures) == 1 and not quiet.tables and "none has orders that stand out" in plain(quiet.conclude)
     assert chapter(Orders(), LOOK) is None
+    without = chapter(Orders(remarks=["stop: the tacho shaft gives fewer than three pulses: no orders"]), LOOK)
+    assert "fewer than three pulses" in without.tables[0].rows[0][0] and not without.figures
 
 
 def test_a_stage_without_a_chapter_has_no_method_on_the_page():

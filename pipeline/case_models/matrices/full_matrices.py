@@ -49,8 +49,8 @@ def has_full_matrices(structure, posed, settings, context):
         return False
     lacking = lacking_terms(structure, posed, settings)
     if lacking:
-        context.log(f"the full finite-element matrices are without {' and '.join(lacking)}: unstable roots are those of"
-                    " the reduced model")
+        context.remark(f"the full finite-element matrices are without {' and '.join(lacking)}: unstable roots are those"
+                       " of the reduced model")
     return not lacking
 
 

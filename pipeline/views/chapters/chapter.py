@@ -69,6 +69,12 @@ class Table:
     subtitles: tuple = ()
 
 
+def remarks_table(remarks, title):
+    """(Table of the sentences ``remarks``,), () of none."""
+    rows = tuple((str(line),) for line in remarks)
+    return (Table(("remark",), rows, title, wide=(0,), folded=len(rows) > 12),) if rows else ()
+
+
 @dataclass(frozen=True)
 class Block:
     """One thing of several alike: what there is to say of it, and its figures side by side."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.views.chapters.bench.noise_modes import near_modes, nearest_mode
-from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table
+from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table, remarks_table
 from pipeline.views.figures.bench import noise_events as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
 from pipeline.views.pages.sound_file import wav
@@ -20,7 +20,9 @@ _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "tempera
 def chapter(product, look):
     """Chapter of the product NoiseEvents."""
     return Chapter("noise_events", "Squeal and other noise in the recordings", _searched(product), conclusion(product),
-                   tuple(_figures(product, look)), tuple(_tables(product)), sounds=_sounds(product))
+                   tuple(_figures(product, look)),
+                   (*_tables(product), *remarks_table(product.remarks, "Channels that were not searched")),
+                   sounds=_sounds(product))
 
 
 def _sounds(product):
@@ -78,7 +80,8 @@ def headline(product):
 def conclusion(product):
     """What was found, in sentences."""
     if not len(product.record_run):
-        return "No channel of the recordings measures sound or acceleration at a rate that reaches the squeal band."
+        return ("No channel of the recordings measures sound or acceleration at a rate that reaches the squeal band."
+                + _unsearched(product))
     rows = counted(product)
     noisy, every = runs(product)
     others = {kind: np.count_nonzero(product.event_kind == kind) for kind in pictures.KINDS if kind != "squeal"}
@@ -90,7 +93,7 @@ def conclusion(product):
         return (f"No steady tone reaches the threshold. The loudest tone in the band has"
                 f" {_least(product, peak)}{number(product.record_peak[peak], 3)} {_unit(product, peak)} at"
                 f" {quantity(product.record_peak_frequency[peak], 'Hz', 3)}, run {product.record_run[peak]}."
-                + (f" Told beside: {beside}." if beside else "") + overloaded(product))
+                + (f" Told beside: {beside}." if beside else "") + overloaded(product) + _unsearched(product))
     first = rows[0]
     return (f"{plural(len(rows), 'squeal event')} in {len(noisy)} of {plural(len(every), 'run')}"
             f" ({percent(len(noisy) / len(every), 2)}){_heard_by(product)}. The loudest:"
@@ -99,7 +102,13 @@ def conclusion(product):
             f" {quantity(product.event_frequency[first], 'Hz', 4)} for"
             f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
             f"{_at(product, first)}.{_bands(product, rows)}{near_modes(product, rows)}"
-            + (f" Told beside: {beside}." if beside else "") + overloaded(product))
+            + (f" Told beside: {beside}." if beside else "") + overloaded(product) + _unsearched(product))
+
+
+def _unsearched(product):
+    """The first channel that was not searched, and how many more, with a space before; '' of none."""
+    more = f" (and {len(product.remarks) - 1} more)" if len(product.remarks) > 1 else ""
+    return f" {product.remarks[0]}{more}." if len(product.remarks) else ""
 
 
 def overloaded(product):

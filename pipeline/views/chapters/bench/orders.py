@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.chapter import Chapter, Figure, Table, remarks_table
 from pipeline.views.figures.bench import orders as pictures
 from pipeline.views.figures.number_format import number, plural, quantity, span
 
@@ -12,12 +12,13 @@ _SHOWN, _ROWS = 4, 60
 
 def chapter(product, look):
     """Chapter of the product Orders; None where it holds nothing."""
-    if not product.spectra:
+    left_out = remarks_table(product.remarks, "Without orders")
+    if not (product.spectra or left_out):
         return None
     see = ("What the recordings hold that follows the revolutions: order 1 is once per revolution, as judder from one"
            " high spot; order 2 twice, and so on.")
     return Chapter("orders", "Orders of the shaft", see, _conclusion(product), tuple(_figures(product, look)),
-                   tuple(_tables(product)))
+                   (*_tables(product), *left_out))
 
 
 def _rows(product):
@@ -54,6 +55,8 @@ def key_figure(product, look):
 
 def _conclusion(product):
     spectra, rows, told = product.spectra.values(), _rows(product), largest(product)
+    if not spectra:
+        return "No channel has orders, see below why."
     speeds = span([pictures.rpm(edge) for one in spectra for edge in one.edge[[0, -1]]], "1", 3)
     heard = len({id(one) for one, *_ in rows})
     have = f"{heard or 'none'} {'has' if heard < 2 else 'have'}"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.chapter import Chapter, Figure, Table, remarks_table
 from pipeline.views.figures.bench import recording as pictures
 from pipeline.views.figures.number_format import percent, plural, quantity
 
@@ -60,8 +60,7 @@ def _channels(product):
 
 def _told(product):
     """The table of what was left out, taken for granted or made of what the files hold, if anything."""
-    rows = tuple((str(line),) for line in product.remarks)
-    return (Table(("remark",), rows, "Remarks on the files", wide=(0,), folded=len(rows) > 12),) if rows else ()
+    return remarks_table(product.remarks, "Remarks on the files")
 
 
 def _others(product):
