@@ -10,9 +10,12 @@ from pipeline.physics.sliding.model import congruent, runs
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import FrictionSystem, enriched, friction_path
 from pipeline.physics.stability.growth_balance import body_shares
+from pipeline.products.motion import COUPLING, FALLING, SINGLE
 
 #: difference of two frequencies, as a share of them, that is rounding next to a coalescence
 _EQUAL = 1e-7
+#: MAC from which on two modes count as meeting: their shapes share half of their amplitude squared
+_MEETING = 0.5
 
 
 @dataclass(frozen=True)
@@ -54,11 +57,12 @@ def followed(neutral, over, root, motion):
     return replace(path, start=over.basis @ path.start)
 
 
-def path_fields(index, paths, friction, model, diameters):
+def path_fields(index, paths, friction, falling, model, diameters):
     """Fields of ComplexModes of the FrictionPaths of unstable modes number ``index`` (f,).
 
-    ``friction`` (f,): coefficient at the operating point of each; ``model``: product ReducedModel; ``diameters``
-    (shapes (g, v, 3)): nodal diameters of the disc in them.
+    ``friction`` (f,): coefficient at the operating point of each; ``falling`` (f,): whether friction that falls with
+    slip speed feeds it most; ``model``: product ReducedModel; ``diameters`` (shapes (g, v, 3)): nodal diameters of the
+    disc in them.
     """
     lengths = [len(p.share) for p in paths]
     starts = np.array([shape[:len(model.mass)] for p in paths for shape in p.start.T])
@@ -70,7 +74,10 @@ def path_fields(index, paths, friction, model, diameters):
         lines[moves] = diameters(on_surface(model, starts[moves]))
     roots, others = ([getattr(p, name) for p in paths] for name in ("root", "meeting"))
     pair = [(root[0], other[0]) for root, other in zip(roots, others, strict=True)]
-    return {"followed_mode": index, "followed_critical": friction * [p.critical for p in paths],
+    mechanism = [FALLING if falls else COUPLING if path.alike >= _MEETING else SINGLE
+                 for falls, path in zip(falling, paths, strict=True)]
+    return {"followed_mode": index, "followed_mechanism": mechanism,
+            "followed_critical": friction * [p.critical for p in paths],
             "followed_alike": [p.alike for p in paths], "followed_nearest": [_nearest(p) for p in paths],
             "pair_root": np.reshape(pair, (len(paths), 2)), "pair_body": body.reshape(-1, 2),
             "pair_diameters": lines.reshape(-1, 2), "path_mode": np.repeat(index, lengths),

@@ -16,11 +16,24 @@ from pipeline.case_models.matrices.full_matrices import Mode, full_modes
 from pipeline.physics.modal.disc_modes import by_plane, describe
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import first_of_each
-from pipeline.physics.stability.growth_balance import EFFECTS, HARD, Losses, body_shares, growth_terms
+from pipeline.physics.stability.growth_balance import (
+    BODY,
+    EFFECTS,
+    FRICTION,
+    HARD,
+    JOINTS,
+    SLIP,
+    Losses,
+    body_shares,
+    growth_terms,
+)
+from pipeline.products.motion import OF_BODY, OF_CONTACTS, OF_EFFECTS, OF_JOINTS
 
 DISC = "disc"
 #: arrays of an outcome with one row for each of its modes
 _OF_MODES = "contacts", "shares", "reduced", "residual"
+#: owners of the terms of the growth rate that begin so
+_OWNERS = {BODY: OF_BODY, JOINTS: OF_JOINTS, FRICTION: OF_CONTACTS}
 
 
 def balances(model, sliding, roots, shapes, losses, viscous, settings):
@@ -102,10 +115,20 @@ def unstable_fields(outcomes, model, bodies):
             "unstable_reduced": reduced, "unstable_residual": residual, "unstable_shape": shapes,
             "unstable_diameters": diameters(model, shapes), **planes(model, shapes), "body_name": names,
             "unstable_share": np.reshape([o.shares[k] for _, o, k in unstable], (count, len(names))),
-            "growth_term": terms, "unstable_growth": np.reshape([list(g.values()) for g in growth],
-                                                                (count, len(terms))),
+            "growth_term": terms, "growth_owner": [_owner(term)[0] for term in terms],
+            "growth_part": [_owner(term)[1] for term in terms],
+            "unstable_growth": np.reshape([list(g.values()) for g in growth], (count, len(terms))),
             "unstable_contact": np.reshape([o.contacts[k] for _, o, k in unstable], (count, len(model.contact_area))),
             "unstable_first": first_of_each(np.array(roots, complex))}
+
+
+def _owner(term):
+    """(Owner, name of its part or '') of a term of the growth rate."""
+    if term == HARD:
+        return OF_CONTACTS, ""
+    start = next((start for start in _OWNERS if term.startswith(start)), "")
+    return (_OWNERS[start], term.removeprefix(start)) if start else (
+        OF_EFFECTS if term == EFFECTS else OF_CONTACTS, "")
 
 
 def path_fields_of(over, points, outcomes, model, settings, context):
@@ -126,7 +149,9 @@ def path_fields_of(over, points, outcomes, model, settings, context):
     path_of = {c: path for members, paths in zip(modes.values(), found, strict=True)
                for c, path in zip(members, paths, strict=True)}
     friction = np.array([unstable[c][1].mean_friction for c in chosen])
-    return path_fields(chosen, [path_of[c] for c in chosen], friction, model, partial(diameters, model))
+    terms = [outcome.terms[k] for _, outcome, k in (unstable[c] for c in chosen)]
+    falling = [max(each, key=each.get) == SLIP for each in terms]
+    return path_fields(chosen, [path_of[c] for c in chosen], friction, falling, model, partial(diameters, model))
 
 
 def _paths(over, neutral, task):

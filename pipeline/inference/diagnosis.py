@@ -157,8 +157,7 @@ def _rests_on_unfinished(refits, decision):
 
 
 def _weighed(refits, settings, null, laws, objected=None):
-    """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws`` together, as it stands
-    beside the Fit ``null``."""
+    """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws``, beside a Fit ``null``."""
     calibration = refits.calibration
     settings = several_laws.allowing(settings, laws, bool(calibration.problem.nominal.effects))
     weighing = weigh(refits, settings)
@@ -179,8 +178,7 @@ class VerdictAtNoise:
 
 
 def over_noise(diagnosis, settings, factors):
-    """[VerdictAtNoise] of a Diagnosis, all fitted values as they are: how far the verdict hangs on the level of noise.
-    """
+    """[VerdictAtNoise] of a Diagnosis, all fitted values as they are: how far the verdict hangs on the noise."""
     if diagnosis.cut_short:
         return [VerdictAtNoise(float(factor), "unknown", ()) for factor in factors]
     told = []
@@ -193,8 +191,7 @@ def over_noise(diagnosis, settings, factors):
 
 
 def reaches_noise(diagnosis, rules):
-    """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
-    """
+    """Whether a Diagnosis leaves nothing to explain: nominal model or a candidate reach the noise on all runs."""
     def reaches(weighed):
         statistics = weighed.statistics
         return (weighed.fit.reaches_noise(rules.decision.noise_uncertainty) and not statistics.unexplained

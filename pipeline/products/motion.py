@@ -4,8 +4,13 @@ import numpy as np
 
 from pipeline.contract import Array, count, product, quantity, text
 
+#: why a mode grows
+COUPLING, FALLING, SINGLE = "mode coupling", "falling friction", "friction on a single mode"
+#: what a term of the growth rate belongs to
+OF_CONTACTS, OF_BODY, OF_JOINTS, OF_EFFECTS = "contacts", "body", "joints", "effects"
 
-@product(version=7)
+
+@product(version=8)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -32,10 +37,13 @@ class ComplexModes:
     body_name: Array = text("body", "bodies in order")
     unstable_share: Array = quantity("1", "unstable body", "share of each body in its kinetic energy")
     growth_term: Array = text("term", "what feeds or dissipates energy: friction at a body, contact damping, damping of a body or at a group of joints, ...; their sum is the growth rate")
+    growth_owner: Array = text("term", "what it belongs to: contacts, body, joints or effects")
+    growth_part: Array = text("term", "name of that body or group of joints, or of the body that the friction acts on; empty for all")
     unstable_growth: Array = quantity("1/s", "unstable term", "part of each term in the growth rate")
     unstable_contact: Array = quantity("1/s", "unstable contact", "part of each contact in the growth rate: its friction and its damping")
     unstable_first: Array = count("unstable", "index of the most unstable mode of the same frequency, within 0.5 %")
     followed_mode: Array = count("followed", "index of the unstable mode that was followed over friction, down to none at the operating point's contact forces")
+    followed_mechanism: Array = text("followed", "why it grows: mode coupling, falling friction, or friction on a single mode")
     followed_critical: Array = quantity("1", "followed", "friction coefficient from which on it is unstable, 0 at any; mean weighted by normal force")
     followed_alike: Array = quantity("1", "followed", "largest MAC, on its path, with the mode it meets")
     followed_nearest: Array = quantity("Hz", "followed", "smallest distance of their frequencies on the path, 0 where they become equal or without another mode")

@@ -14,6 +14,7 @@ from pipeline.physics.sliding.equilibrium import closure_response
 from pipeline.physics.stability.friction_basis import friction_basis
 from pipeline.physics.stability.friction_path import FrictionPath
 from pipeline.physics.stability.growth_balance import Losses
+from pipeline.products.motion import COUPLING, FALLING, SINGLE
 from stages.complex_modes import Settings, _linearised
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
@@ -87,14 +88,16 @@ def test_paths_become_fields():
     rising = np.array([5 + 1000j, 6 + 1010j, 7 + 1020j])
     paths = [FrictionPath(np.array([0, 0.5, 1]), rising, np.array([1 + 1005j, 1 + 1006j, 0]), 0.5, 0.9, starts[0]),
              FrictionPath(np.array([0, 1.0]), rising[:2], np.zeros(2, complex), 0.25, 0.0, starts[1])]
-    made = path_fields(np.array([0, 3]), paths, np.array([0.4, 0.6]), product, lambda shapes: np.arange(len(shapes)))
+    made = path_fields(np.array([0, 3]), paths, np.array([0.4, 0.6]), [True, False], product,
+                       lambda shapes: np.arange(len(shapes)))
     np.testing.assert_allclose(made["followed_critical"], [0.2, 0.15])
     np.testing.assert_allclose(made["path_friction"], [0, 0.2, 0.4, 0, 0.6])
     assert made["path_mode"].tolist() == [0, 0, 0, 3, 3] and made["followed_nearest"] == [0.0, 0.0]
     assert made["pair_body"].tolist() == [[0, 1], [3, -1]] and made["pair_diameters"].tolist() == [[0, 1], [2, -1]]
     assert made["pair_root"].tolist() == [[5 + 1000j, 1 + 1005j], [5 + 1000j, 0]]
-    apart = path_fields(np.array([0]), [replace(paths[0], meeting=rising + 30j)], np.array([0.4]), product,
+    apart = path_fields(np.array([0]), [replace(paths[0], meeting=rising + 30j)], np.array([0.4]), [False], product,
                         lambda shapes: np.arange(len(shapes)))
+    assert made["followed_mechanism"] == [FALLING, SINGLE] and apart["followed_mechanism"] == [COUPLING]
     assert apart["followed_nearest"] == [pytest.approx(30 / (2 * np.pi))]
-    none = path_fields(np.empty(0, int), [], np.empty(0), product, lambda shapes: np.arange(len(shapes)))
+    none = path_fields(np.empty(0, int), [], np.empty(0), [], product, lambda shapes: np.arange(len(shapes)))
     assert all(len(values) == 0 for values in none.values())

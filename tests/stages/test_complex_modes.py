@@ -15,6 +15,7 @@ from pipeline.physics.sliding.equilibrium import closure_response, model_about, 
 from pipeline.physics.sliding.model import FrictionState, sliding_model
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.simulate import Table
+from pipeline.products.motion import COUPLING, FALLING, OF_BODY, OF_JOINTS, SINGLE
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
@@ -288,7 +289,7 @@ def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
     structure, model = lossy
     modes = complex_modes(model, small_friction_map(), None, structure, settings=Settings(**IN_FULL | {"followed": 12}))
     elements, checked = FiniteElements(structure), []
-    inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
+    inside = np.isin(modes.growth_owner, (OF_BODY, OF_JOINTS))
     outside = np.invert(inside)
     assert {f"damping of {name}" for name in structure.body_name} <= set(modes.growth_term) and outside.any()
     assert {"damping of brake_fluid", "damping at fluid_column"} <= set(modes.growth_term)
@@ -335,7 +336,9 @@ def test_the_growth_rate_is_the_sum_of_what_friction_contacts_bodies_and_joints_
     _, _, modes = growing
     assert len(modes.unstable_root) > 1
     np.testing.assert_allclose(modes.unstable_growth.sum(axis=1), modes.unstable_root.real, atol=1e-6)
-    inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
+    inside = np.isin(modes.growth_owner, (OF_BODY, OF_JOINTS))
+    assert set(modes.growth_part[modes.growth_owner == OF_BODY]) <= set(modes.body_name)
+    assert set(modes.followed_mechanism) <= {COUPLING, FALLING, SINGLE} and len(modes.followed_mechanism)
     assert "damping of pad_inner" in modes.growth_term and "damping at abutment" in modes.growth_term
     assert (modes.unstable_growth[:, inside] <= 0).all()
     outside = modes.unstable_growth[:, np.invert(inside)].sum(axis=1)

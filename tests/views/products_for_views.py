@@ -310,6 +310,8 @@ def complex_modes(stable=False):
         growth_term=["friction at pad_outer", "friction at pad_inner", "contact damping",
                      "friction turning with the slip", "friction over slip speed", "damping of disc",
                      "damping of pad_inner", "damping at abutment"],
+        growth_owner=["contacts"] * 5 + ["body", "body", "joints"],
+        growth_part=["pad_outer", "pad_inner", "", "", "", "disc", "pad_inner", "abutment"],
         unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -2.6, -30.0, -10.0], (len(operating), 1)),
         **_path(len(operating)), corrections=55, squeal_from=1e3)
 
@@ -322,6 +324,7 @@ def _path(unstable):
     root = -50 + 150 * share + 1j * (2 * np.pi * SQUEAL_LINE + gap)
     return {"unstable_contact": np.tile(np.linspace(-40, 60, 12), (unstable, 1)),
             "unstable_first": np.zeros(unstable, int), "followed_mode": np.arange(count),
+            "followed_mechanism": ["mode coupling"] * count,
             "followed_critical": np.full(count, 0.4), "followed_alike": np.full(count, 0.9),
             "followed_nearest": np.full(count, 3.0), "pair_body": np.tile([0, 2], (count, 1)),
             "pair_root": np.tile(2j * np.pi * np.array([SQUEAL_LINE, SQUEAL_LINE - 200]), (count, 1)),

@@ -18,8 +18,8 @@ from pipeline.physics.sliding.structural_damping import equivalent_motion
 
 #: terms beside those of the friction at the contacts of each body, in order
 CONTACT, TURNING, SLIP = "contact damping", "friction turning with the slip", "friction over slip speed"
-#: how the terms of a body and of a group of joints begin
-BODY, JOINTS = "damping of ", "damping at "
+#: how the terms of the friction at a body, of what a body and of what a group of joints dissipates begin
+FRICTION, BODY, JOINTS = "friction at ", "damping of ", "damping at "
 #: names of a remainder: friction at contacts that do not yield, or the effects of a case
 HARD, EFFECTS = "friction at hard contacts", "effects of the case"
 #: words in the name of a joint from which on it says where, not what
@@ -140,7 +140,7 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     local = {CONTACT: -rate * contacts.damping * abs(normal) ** 2,
              TURNING: -rate * friction_damping * model.turning_drag(state.coefficient) * abs(lateral) ** 2,
              SLIP: -rate * contacts.preload * state.speed_slope * abs(tangent) ** 2}
-    terms = {f"friction at {model.body_name[body]}": drawn[losses.contact_body == body].sum()
+    terms = {f"{FRICTION}{model.body_name[body]}": drawn[losses.contact_body == body].sum()
              for body in np.unique(losses.contact_body)}
     terms |= {name: part.sum() for name, part in local.items()}
     terms |= {name: -lost / inertia for name, lost in losses.parts(model, root, shape, viscous).items()}

@@ -4,16 +4,12 @@ import re
 
 import numpy as np
 
+from pipeline.products.motion import COUPLING, FALLING, OF_BODY, OF_JOINTS
 from pipeline.views.chapters.chapter import Block, Figure
 from pipeline.views.figures import friction_paths
 from pipeline.views.figures.number_format import number, quantity, span
 
 TWO_PI = 2.0 * np.pi
-#: how terms of the growth rate begin that belong to a body and to a group of joints, and that of falling friction
-BODY, JOINTS, SLIP = "damping of ", "damping at ", "friction over slip speed"
-#: MAC from which on two modes count as meeting: their shapes share half of their amplitude squared
-MEETING = 0.5
-COUPLING, FALLING, SINGLE = "mode coupling", "falling friction", "friction on a single mode"
 #: parts of the growth rate below this share of the largest are not listed
 _SMALL = 0.05
 _PATH_CAPTION = ("Path over friction in the reduced model, at the contact forces of the operating point: the dot is its"
@@ -49,12 +45,7 @@ def blocks(modes, model, pictures, look):
 def mechanism(modes, index):
     """Why unstable mode ``index`` grows, in words for a label; None if it was not followed over friction."""
     follow = np.flatnonzero(modes.followed_mode == index)
-    if not len(follow):
-        return None
-    growth = modes.unstable_growth[index]
-    if str(modes.growth_term[np.argmax(growth)]) == SLIP:
-        return FALLING
-    return COUPLING if modes.followed_alike[follow[0]] >= MEETING else SINGLE
+    return str(modes.followed_mechanism[follow[0]]) if len(follow) else None
 
 
 def pair(modes, index):
@@ -131,17 +122,17 @@ def budget(modes, index):
 
 def summed(modes, index):
     """(names, values 1/s) of the terms of the growth rate, those of bodies and joints as one."""
-    growth, terms = modes.unstable_growth[index], list(map(str, modes.growth_term))
-    inside = np.array([term.startswith((BODY, JOINTS)) for term in terms], bool)
-    names = [term for term, hidden in zip(terms, inside, strict=True) if not hidden]
+    growth, inside = modes.unstable_growth[index], np.isin(modes.growth_owner, (OF_BODY, OF_JOINTS))
+    names = [str(term) for term, hidden in zip(modes.growth_term, inside, strict=True) if not hidden]
     return [*names, "bodies, joints"], [*growth[~inside], growth[inside].sum()]
 
 
 def losses(modes, index):
     """{'bodies': {name: part of the growth rate in 1/s}, 'joints': ...} of what bodies and joints dissipate."""
-    values = dict(zip(map(str, modes.growth_term), modes.unstable_growth[index], strict=True))
-    return {name: {term.removeprefix(start): float(value) for term, value in values.items() if term.startswith(start)}
-            for name, start in (("bodies", BODY), ("joints", JOINTS))}
+    values = list(zip(map(str, modes.growth_owner), map(str, modes.growth_part), modes.unstable_growth[index],
+                      strict=True))
+    return {name: {part: float(value) for owner, part, value in values if owner == of}
+            for name, of in (("bodies", OF_BODY), ("joints", OF_JOINTS))}
 
 
 def _mappable(modes, model):

@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.products.motion import COUPLING, FALLING, SINGLE
 from pipeline.views.chapters import complex_modes as chapter
 from pipeline.views.chapters.chapter import Look
 from pipeline.views.chapters.unstable_modes import (
-    COUPLING,
-    FALLING,
-    SINGLE,
     blocks,
     budget,
     distinct_unstable,
@@ -41,12 +39,10 @@ def test_a_coupled_mode_says_whom_it_meets_and_from_when_on(modes):
 
 
 def test_a_mode_that_meets_no_other_is_not_called_coupled(modes):
-    alone = replace(modes, followed_alike=[0.3])
+    alone = replace(modes, followed_alike=[0.3], followed_mechanism=[SINGLE])
     assert mechanism(alone, 0) == SINGLE and len(pair(alone, 0)) == 1
     assert explanation(alone, 0).startswith("Friction feeds a single mode")
-    growth = modes.unstable_growth.copy()
-    growth[:, list(modes.growth_term).index("friction over slip speed")] = 500.0
-    falls = replace(alone, unstable_growth=growth)
+    falls = replace(alone, followed_mechanism=[FALLING])
     assert mechanism(falls, 0) == FALLING and explanation(falls, 0).startswith("Friction that falls with slip speed")
 
 
