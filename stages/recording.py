@@ -107,6 +107,7 @@ class Waveforms(_Clocked):
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none; of uneven time"
                                                      " stamps that of the grid that they are put on")
     time: str | None = option(None, "channel with the times, 'GROUP/CHANNEL' of a TDMS file; none = by its name")
+    time_unit: str | None = option(None, "unit of such channels; none = as they say, else s")
     runs: dict[str, Stretch] = option({}, "runs by name: stretches of the record; none = one run, named as the file")
 
 

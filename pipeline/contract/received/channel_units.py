@@ -31,9 +31,10 @@ _UNITS = (
     ("N", "N", "n u m c d da k M", "newton newtons"), ("kgf", "kgf kp", "", "kilopond kiloponds"), ("gf", "gf", "", ""),
     ("lbf", "lbf", "k", "lbsf"), ("kip", "kip", "", "kips"), ("ozf", "ozf", "", ""), ("dyn", "dyn", "", "dyne dynes"),
     ("N*m", "Nm", "n u m c d da k M", "newtonmeter newtonmeters newtonmetre newtonmetres"), ("N*mm", "Nmm", "k M", ""),
+    ("N*cm", "Ncm", "", ""),
     ("kgf*m", "kgfm kpm", "", ""), ("lbf*ft", "", "", "lbft ftlb ftlbs lbfft ftlbf"),
     ("lbf*inch", "", "", "lbin inlb inlbs lbfin inlbf"), ("ozf*inch", "", "", "ozin inoz"),
-    ("Pa", "Pa", "n u m h k M G", "pascal pascals"), ("bar", "bar", "u m k", "bars"), ("psi", "psi", "k", "ksi"),
+    ("Pa", "Pa", "n u m h k M G", "pascal pascals"), ("bar", "bar", "u m k", "bars"), ("psi", "psi", "k", ""), ("kpsi", "ksi", "", ""),
     ("atm", "atm", "", ""), ("torr", "Torr", "m", ""), ("mmHg", "mmHg", "", ""), ("inHg", "inHg", "", ""),
     ("rad", "rad", "n u m", "radian radians"), ("deg", "deg ° arcdeg", "m", "degree degrees degs"),
     ("arcmin", "arcmin", "", ""), ("arcsec", "arcsec", "", ""),
@@ -167,11 +168,17 @@ def plain(label):
     for twice, once in _TWICE.items():
         label = label.replace(twice, once)
     text = unicodedata.normalize("NFKC", label.translate(_LIKE)).translate(_LIKE).strip()
-    if text[:1] + text[-1:] in ("[]", "()", "<>") and not set("[]()<>") & set(text[1:-1]):
+    if text[:1] + text[-1:] in ("[]", "()", "<>") and _balanced(text[1:-1]):
         text = text[1:-1].strip()
     text = re.sub(r"\s+per\s+", "/", text, flags=re.IGNORECASE)
     text = re.sub(r"\.(?=\s*(?:$|[/*)^-]))", "", text)
     return _DEGREES.sub(lambda match: f"deg{match[1][0].upper()}", text)
+
+
+def _balanced(text):
+    """Whether every parenthesis of a text has its other one behind it, and there are no other brackets."""
+    bare = re.sub(r"\([^()]*\)", "", text)
+    return not set("[]()<>") & set(bare) and not set("[]<>") & set(text)
 
 
 def _unqualified(text):

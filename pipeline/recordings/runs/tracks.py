@@ -23,9 +23,11 @@ def channels_of(file, imported, track):
     channel. Raises ConfigError for columns that the file does not hold, and where no channel can be used.
     """
     where = f"{file.file}"
-    if file.time and file.kind != "tdms":
-        raise ConfigError(f"{where}: time", "no channel of times: files of this kind have their own", repr(file.time))
-    found = waveforms(file.kind, file.file, **({"time": file.time} if file.time else {}))
+    clock = {name: value for name in ("time", "time_unit") if (value := getattr(file, name))}
+    if clock and file.kind != "tdms":
+        raise ConfigError(f"{where}: {next(iter(clock))}", "no channel of times: files of this kind have their own",
+                          repr(next(iter(clock.values()))))
+    found = waveforms(file.kind, file.file, **clock)
     for name, wanted in file.columns.items():
         if wanted.column not in found:
             raise ConfigError(f"{where}: {name}.column", f"one of {', '.join(found)}", repr(wanted.column))

@@ -1,0 +1,206 @@
+"""Planted facts in text tables by csv and numpy.savetxt, and in MATLAB files by savemat: times, units, marks, gaps."""
+
+import csv
+import io
+import numpy as np
+from scipy.io import savemat
+
+from tests.fuzz.mutation import draw
+from tests.fuzz.semantics.planted import Meant, column, gaps
+from tests.fuzz.trial import Trial
+
+_RATES = (10.0, 50.0, 100.0, 256.0, 1000.0, 2048.0, 12800.0, 25600.0, 44100.0, 51200.0)
+_TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0}
+_WORDS = {"s": ("s", "sec", "Sekunden", "seconds"), "ms": ("ms", "msec", "milliseconds"), "us": ("us", "µs", "usec"),
+          "min": ("min", "minutes")}
+_GONE = ("", "NaN", "nan", "n/a", "#N/A", "---", "NA", "null")
+#: what a remark says of times that nothing states the unit of, and of rounded ones
+_UNSTATED, _ROUNDED = "states no unit: read in", "times are rounded to"
+
+
+def _columns(rng, count):
+    """{name in the file: Column}, some with gaps."""
+    found = {}
+    for k in range(int(rng.integers(1, 4))):
+        one = column(rng, count)
+        found[f"ch{k}"] = gaps(rng, one)[0] if rng.random() < 0.25 else one
+    return found
+
+
+def table(rng):
+    """A text table: where its names, units and numbers stand, how its times are written, and what its head says."""
+    rate, begin, count = float(draw(rng, _RATES)), float(draw(rng, (0.0, 0.0, 0.5, 2.0, -0.25))), int(
+        rng.integers(60, 400))
+    columns = _columns(rng, count)
+    how = draw(rng, ("name", "name", "row", "setting", "head", "none", "rate", "stamps", "rate and times"))
+    unit = draw(rng, ("s", "s", "ms", "us", "min"))
+    spoken = _spoken(rng, columns, how, unit, rate, begin, count)
+    content, given = _written(rng, columns, spoken)
+    stated = {"kind": "table", "runs": {"a": {}}, "columns": {
+        f"c{k}": one.stated(spoken["names"][key]) for k, (key, one) in enumerate(columns.items())}}
+    meant = {f"c{k}": one.planted(rate, spoken["begin"], exact=1e-6, **spoken["open"])
+             for k, one in enumerate(columns.values())}
+    either = any(one.asked for one in columns.values()) or spoken["either"] or len(columns) + bool(spoken["times"]) < 2
+    return Trial("a.csv", content, f"table with times by {how}", {"files": [stated | given | spoken["given"]]},
+                 Meant({"a": meant}), "either" if either else "read")
+
+
+def _spoken(rng, columns, how, unit, rate, begin, count):
+    """How the times of a table are told: texts of them, names, rows of the head, settings and what is left open."""
+    names = {key: f"{key} [{one.label}]" if how != "row" and rng.random() < 0.5 and one.label.strip() else key
+             for key, one in columns.items()}
+    base = {"names": names, "row": None, "head": [], "given": {}, "open": {}, "begin": begin, "either": False}
+    if how in ("rate", "head") and rng.random() < 0.5:
+        head = [] if how == "rate" else [_said(rng, rate)]
+        return base | {"times": None, "time": None, "begin": 0.0, "head": head, "given": (
+            {} if how == "head" else {"sample_rate": f"{rate!r} Hz"})}
+    instants = begin + np.arange(count) / rate
+    if how == "stamps":
+        return base | _stamps(rng, instants)
+    digits = int(draw(rng, (15, 15, 9, 7)))
+    text = [f"{t:.{digits}g}" for t in instants / _TIMES[unit]]
+    rounded = np.array([float(t) for t in text]) * _TIMES[unit]
+    off = float(np.abs(rounded - instants).max())
+    open_ = {"instant": 2e-6 + off, "exact_rate": 1e-6 + 4 * off * rate / count}
+    name = draw(rng, ("t", "time", "Zeit", "Time"))
+    word = draw(rng, _WORDS[unit])
+    made = base | {"times": text, "time": name, "open": open_, "given": {"time": name}, "either": digits < 15}
+    if how == "name":
+        name = draw(rng, (f"{name} [{word}]", f"{name} ({word})", f"{name}/{unit}", f"{name} in {unit}"))
+        return made | {"time": name, "given": {"time": name}}
+    if how == "row":
+        return made | {"row": word}
+    if how == "setting":
+        return made | {"given": {"time": name, "time_unit": unit}}
+    if how == "rate and times" and unit == "s":
+        return made | {"given": {"time": name, "sample_rate": f"{rate!r} Hz"}}
+    if how == "head":
+        return made | {"head": [_said(rng, rate)]}
+    assumed = () if unit == "s" else (("rate", _UNSTATED), ("begin", _UNSTATED))
+    return made | {"open": open_ | {"assumed": assumed}, "either": True}
+
+
+def _said(rng, rate):
+    """A line of a head that states the rate."""
+    return draw(rng, ((f"Sample rate: {rate:g} Hz",), (f"Sampling frequency = {rate / 1e3:.12g} kHz",),
+                      (f"Interval: {1 / rate!r} s",), (f"SampleRate: {rate!r}",)))[0].replace(
+        "Interval", "Sample interval")
+
+
+def _stamps(rng, instants):
+    """Times of day, with a date or without, to a microsecond."""
+    begin = np.datetime64("2026-03-29T23:59:58.500000", "us")
+    clock = begin + np.rint(1e6 * (instants - instants[0])).astype("timedelta64[us]")
+    form = draw(rng, ("iso", "german", "clock"))
+    texts = [str(one) for one in clock]
+    if form == "german":
+        texts = [f"{t[8:10]}.{t[5:7]}.{t[:4]} {t[11:]}" for t in texts]
+    elif form == "clock":
+        texts = [t[11:] for t in texts]
+    else:
+        texts = [t.replace("T", draw(rng, ("T", " "))) for t in texts]
+    step = 0.5e-6
+    return {"times": texts, "time": "Timestamp", "given": {"time": "Timestamp"}, "begin": 0.0, "either": True,
+            "open": {"instant": 1e-6 + 2 * step, "exact_rate": 1e-6 + 4 * step / (instants[-1] - instants[0])},
+            "stamps": True}
+
+
+def _written(rng, columns, spoken):
+    """(bytes, settings) of a table."""
+    comma = bool(rng.random() < 0.35)
+    mark = draw(rng, (";", "\t", "|") if comma else (",", ";", "\t", "\t"))
+    gone = draw(rng, _GONE)
+    texts = [] if spoken["times"] is None else [spoken["times"]]
+    form = draw(rng, ("{!r}", "{!r}", "{:.9e}", "{:+.9g}"))
+    texts += [[gone if np.isnan(v) else form.format(float(v)) for v in one.numbers] for one in columns.values()]
+    if comma:
+        texts = [column if k == 0 and spoken.get("stamps") else [t.replace(".", ",") if t != gone else t for t in column]
+                 for k, column in enumerate(texts)]
+    names = [spoken["time"]] * (spoken["times"] is not None) + [spoken["names"][key] for key in columns]
+    stream = io.StringIO()
+    title = draw(rng, ([], [], ["Bench 3, stop 12"], ["Operator: A. B.", "", "Remarks: cold"]))
+    for line in (*title, *spoken["head"]):
+        stream.write(line + "\n")
+    quoting = csv.QUOTE_ALL if rng.random() < 0.2 else csv.QUOTE_MINIMAL
+    writer = csv.writer(stream, delimiter=mark, lineterminator=draw(rng, ("\n", "\r\n")), quoting=quoting)
+    writer.writerow(names)
+    given = {}
+    if spoken["row"] is not None:
+        row = [spoken["row"], *(one.label for one in columns.values())]
+        row = [f"[{text}]" if text[:1] != "[" else text for text in row] if rng.random() < 0.5 else row
+        writer.writerow(row)
+        given = {"units_row": True} if any(one.asked for one in columns.values()) else {}
+    if rng.random() < 0.2:
+        stream.write("\n")
+    writer.writerows(zip(*texts, strict=True))
+    return _encoded(rng, stream.getvalue()), given
+
+
+def _encoded(rng, text):
+    encoding = draw(rng, ("utf-8", "utf-8", "utf-8-sig", "utf-16", "cp1252"))
+    try:
+        return text.encode(encoding)
+    except UnicodeEncodeError:
+        return text.encode("utf-8")
+
+
+def plain_text(rng):
+    """What numpy.savetxt writes, with and without names."""
+    rate, count = float(draw(rng, _RATES)), int(rng.integers(60, 300))
+    columns = {key: one for key, one in _columns(rng, count).items()}
+    times, named = np.arange(count) / rate, bool(rng.random() < 0.7)
+    stream, mark = io.StringIO(), draw(rng, (" ", ",", ";", "\t"))
+    names = ["time", *columns]
+    np.savetxt(stream, np.column_stack([times, *(one.numbers for one in columns.values())]), delimiter=mark,
+               fmt=draw(rng, ("%.18e", "%.12g", "%.15f")), header=mark.join(names) if named else "",
+               comments=draw(rng, ("# ", "", "% ", "#")) if named else "")
+    called = names if named else [f"column {k + 1}" for k in range(len(names))]
+    stated = {"kind": "table", "runs": {"a": {}}, "time": called[0], "columns": {
+        f"c{k}": one.stated(called[k + 1]) for k, one in enumerate(columns.values())}}
+    meant = {f"c{k}": one.planted(rate, 0.0) for k, one in enumerate(columns.values())}
+    return Trial("a.txt", stream.getvalue().encode(), "numpy.savetxt", {"files": [stated]}, Meant({"a": meant}),
+                 "either" if rate < 50 or any(one.asked for one in columns.values()) else "read")
+
+
+def matlab(rng):
+    """Vectors, columns of a matrix, or the structures of Testlab, with times in their unit, a rate, or an increment."""
+    rate, begin, count = float(draw(rng, _RATES)), float(draw(rng, (0.0, 0.5, -0.25))), int(rng.integers(60, 300))
+    columns, form = _columns(rng, count), draw(rng, ("4", "5", "5"))
+    kind = draw(rng, ("vectors", "matrix", "testlab", "rate"))
+    kind = "vectors" if form == "4" and kind == "testlab" else kind
+    unit = draw(rng, ("s", "s", "ms", "us"))
+    how = draw(rng, ("setting", "name", "none"))
+    times, given, assumed = (begin + np.arange(count) / rate) / _TIMES[unit], {}, ()
+    if how == "none" and unit != "s":
+        assumed = (("rate", _UNSTATED), ("begin", _UNSTATED))
+    name = f"t_{unit}" if how == "name" else "t"
+    given = {"time_unit": unit} if how == "setting" else {}
+    numbers = {key: one.numbers for key, one in columns.items()}
+    called = {key: key for key in columns}
+    if kind == "matrix":
+        given, name = {"time_unit": unit}, "data(:,1)"
+        assumed, variables = (), {"data": np.column_stack([times, *numbers.values()])}
+        called = {key: f"data(:,{k + 2})" for k, key in enumerate(columns)}
+    elif kind == "testlab":
+        given, name, assumed = {}, None, ()
+        variables = {f"S_{key}": {"x_values": {"start_value": begin, "increment": 1 / rate, "number_of_values": count},
+                                  "y_values": {"values": values}} for key, values in numbers.items()}
+        called = {key: f"S_{key}.y_values.values" for key in columns}
+    elif kind == "rate":
+        given, name, begin, assumed, variables = {"sample_rate": f"{rate!r} Hz"}, None, 0.0, (), numbers | {"fs": rate}
+    else:
+        variables = {name: times} | numbers
+    if kind in ("vectors", "matrix") and rng.random() < 0.3:
+        variables = {key: value[:, None] if value.ndim == 1 else value for key, value in variables.items()}
+    stream = io.BytesIO()
+    savemat(stream, variables, format=form, oned_as=draw(rng, ("row", "column")), do_compression=bool(
+        form == "5" and rng.random() < 0.3))
+    stated = {"kind": "matlab", "runs": {"a": {}}, "columns": {
+        f"c{k}": one.stated(called[key]) for k, (key, one) in enumerate(columns.items())}} | given | (
+        {"time": name} if name else {})
+    meant = {f"c{k}": one.planted(rate, begin, assumed=assumed) for k, one in enumerate(columns.values())}
+    either = assumed or any(one.asked for one in columns.values()) or (rate < 50 and kind != "rate")
+    return Trial("a.mat", stream.getvalue(), f"MATLAB, {kind}", {"files": [stated]}, Meant({"a": meant}),
+                 "either" if either else "read")
+
+
