@@ -130,15 +130,16 @@ def readings(label, response=False):
     if len(label) > LONGEST:
         raise NoUnitError(f"a unit of {len(label)} characters")
     text = plain(label)
-    whole = _WHOLE.get(re.sub(r"\s*([/^-])\s*", r"\1", text))
+    whole = _whole(text)
     if whole:
         return [Reading(*whole)]
     if text in _TEMPERATURES:
         return [Reading(_TEMPERATURES[text], True)]
     if _SPANS.fullmatch(text):
         raise NoUnitError("values from peak to peak are no samples")
+    text, known = _with_whole(text) if response else (text, False)
     bare, guess = _unqualified(text)
-    tokens = _tokens(bare)
+    guess, tokens = guess or known, _tokens(bare)
     found, seen = [], set()
     for below in (False, True):
         parts = _product(tokens, below)
@@ -150,6 +151,23 @@ def readings(label, response=False):
                 seen.add(spelt)
                 found.append(Reading(spelt, guessed or below or change in (_FORCES, _BOTH)))
     return found
+
+
+def _whole(text):
+    """What _WHOLE says of a label in plain characters, None where it does not hold it."""
+    return _WHOLE.get(re.sub(r"\s*([/^-])\s*", r"\1", text))
+
+
+def _with_whole(text):
+    """(label of a response per reference with what _WHOLE says of either, whether that is a guess): ms-2/N is no
+    1/ms^2/N."""
+    above, _, below = text.rpartition("/")
+    parts = [plain(part) for part in (above, below)]
+    known = [_whole(part) if part else None for part in parts]
+    if not above or not any(known):
+        return text, False
+    spelt = [f"({one[0] or 1})" if one else f"({part})" for part, one in zip(parts, known, strict=True)]
+    return "/".join(spelt), any(one[1] for one in known if one)
 
 
 def only_of(label):

@@ -11,6 +11,9 @@ from pipeline.contract.received.plain_text import cells, decoded, lines_of, numb
 from pipeline.recordings.tables.labview import BEGINS, measurement
 from pipeline.recordings.tables.layout import REMEDY, Form, layout
 
+#: rows in which the decimal mark is looked for
+_LOOKED = 10_000
+
 
 @dataclass(frozen=True)
 class TextTable:
@@ -72,6 +75,8 @@ def text_table(path, form=None):
     else:
         head = layout(lines, path, form, encoding)
         rows = _rows(lines, head, path, form)
+        if form.decimal is None:
+            head.remarks.extend(_ambiguous(rows, head.decimal))
     table = _table(head, rows, path)
     filled = [line for line in lines if line.strip()]
     if not text.endswith(("\n", "\r")) and len(filled) > 2 and _shorter(filled, head.delimiter):
@@ -91,6 +96,16 @@ def _rows(lines, head, path, form):
             raise ConfigError(f"{path}:{k + 1}", f"{width} values", f"{len(texts)}", f"read as {head.shown}; {REMEDY}")
         rows.append((k + 1, ["" if texts[j] in form.missing else texts[j] for j in head.positions]))
     return rows
+
+
+def _ambiguous(rows, decimal):
+    """[What to say] of rows whose numbers show nowhere whether ``decimal`` is one, or sets thousands apart."""
+    group = re.compile(rf"[-+]?[1-9]\d{{0,2}}{re.escape(decimal)}\d{{3}}")
+    marked = [text for _, texts in rows[:_LOOKED] for text in texts if decimal in text]
+    if not marked or not all(map(group.fullmatch, marked)):
+        return []
+    return [f"numbers such as {marked[0]} are read with the decimal mark {decimal!r}, which nothing else shows: state"
+            f" decimal: {decimal!r}; where it sets thousands apart, save them without"]
 
 
 def _table(head, rows, path):

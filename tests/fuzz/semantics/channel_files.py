@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.fuzz.mutation import draw
-from tests.fuzz.semantics.planted import Meant, column, gaps
+from tests.fuzz.semantics.planted import Meant, column, gaps, is_line
 from tests.fuzz.trial import Trial
 
 _T0 = np.datetime64("2026-03-02T10:20:30.250000", "us")
@@ -34,11 +34,6 @@ def scaled(rng, one):
     numbers = slope * raw + intercept
     fit = np.polyfit(one.numbers, one.true, 1) if not one.asked else (1.0, 0.0)
     return replace(one, numbers=numbers, true=fit[0] * numbers + fit[1]), raw, slope, intercept
-
-
-def _linear(one):
-    """Whether a column is a line of its numbers, as levels are not."""
-    return one.asked or np.allclose(np.polyval(np.polyfit(one.numbers, one.true, 1), one.numbers), one.true)
 
 
 def _settings(kind, name, columns, rng, alone, runs):
@@ -120,7 +115,7 @@ def _stored(rng, one):
     """(Column, values as stored, properties) of a channel: floats, single floats, or integers with a scaling."""
     from nptdms.types import Uint32
 
-    if rng.random() < 0.3 and _linear(one):
+    if rng.random() < 0.3 and is_line(one):
         one, raw, slope, intercept = scaled(rng, one)
         return one, raw, {"NI_Number_Of_Scales": 1, "NI_Scaling_Status": "unscaled", "NI_Scale[0]_Scale_Type": "Linear",
                           "NI_Scale[0]_Linear_Slope": slope, "NI_Scale[0]_Linear_Y_Intercept": intercept,
@@ -144,7 +139,7 @@ def mdf(rng):
         signals = []
         for c in range(int(rng.integers(1, 4))):
             one = column(rng, count, not alone, (1.0,) if alone else (1.0, -1.0, 2.5), 0.0 if jitters else 0.06)
-            if jitters and not _linear(one):
+            if jitters and not is_line(one):
                 one = replace(one, label="V", si="V", measured="voltage", true=one.factor * one.numbers)
             if jitters:     # a ramp: straight lines between its samples are right
                 one = _ramp(rng, one, times)
@@ -184,7 +179,7 @@ def _raw(rng, one, version, jitters):
 
     kind = draw(rng, ("plain", "plain", "single", "linear", "invalid", "texts"))
     kind = "plain" if jitters or (version == "3.30" and kind in ("invalid", "texts")) else kind
-    kind = "plain" if kind in ("linear", "texts") and not _linear(one) else kind
+    kind = "plain" if kind in ("linear", "texts") and not is_line(one) else kind
     if kind == "linear":
         one, raw, slope, intercept = scaled(rng, one)
         return one, {"samples": raw, "conversion": {"a": slope, "b": intercept}}, False

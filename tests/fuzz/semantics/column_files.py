@@ -2,11 +2,13 @@
 
 import csv
 import io
+from dataclasses import replace
+
 import numpy as np
 from scipy.io import savemat
 
 from tests.fuzz.mutation import draw
-from tests.fuzz.semantics.planted import Meant, column, gaps
+from tests.fuzz.semantics.planted import Meant, Planted, column, gaps, is_line
 from tests.fuzz.trial import Trial
 
 _RATES = (10.0, 50.0, 100.0, 256.0, 1000.0, 2048.0, 12800.0, 25600.0, 44100.0, 51200.0)
@@ -14,8 +16,10 @@ _TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0}
 _WORDS = {"s": ("s", "sec", "Sekunden", "seconds"), "ms": ("ms", "msec", "milliseconds"), "us": ("us", "µs", "usec"),
           "min": ("min", "minutes")}
 _GONE = ("", "NaN", "nan", "n/a", "#N/A", "---", "NA", "null")
-#: what a remark says of times that nothing states the unit of, and of rounded ones
-_UNSTATED, _ROUNDED = "states no unit: read in", "times are rounded to"
+#: what a remark says of times that nothing states the unit of
+_UNSTATED = "states no unit: read in"
+#: and of numbers whose mark may be one of thousands
+_GROUPS = "thousands"
 
 
 def _columns(rng, count):
@@ -204,3 +208,83 @@ def matlab(rng):
                  "either" if either else "read")
 
 
+
+
+def grouped(rng):
+    """Whole or long numbers whose thousands are set apart, by marks of which one may as well be a decimal mark."""
+    count, rate = int(rng.integers(60, 200)), float(draw(rng, _RATES[2:]))
+    numbers = np.round(rng.uniform(1000, 99999, count) * rng.choice([1.0, -1.0], count), int(draw(rng, (0, 0, 2, 3))))
+    style, mark = draw(rng, (",.", ".,", " .", "',", ",_", "._")), draw(rng, (";", "\t"))
+    whole = style[1] == "_"
+    numbers = np.round(numbers) if whole else numbers
+    texts = [f"{v:,.{0 if whole else 3}f}".replace(",", "@").replace(".", style[1]).replace("@", style[0].replace(
+        " ", "\u00a0")) for v in numbers]
+    unit, size = draw(rng, (("N", 1.0), ("bar", 1e5)))
+    rows = [mark.join([f"{k}", text]) for k, text in enumerate(texts)]
+    content = "\n".join([mark.join(["count", "load"]), *rows, ""]).encode()
+    stated = {"kind": "table", "runs": {"a": {}}, "sample_rate": f"{rate!r} Hz", "columns": {
+        "load": {"column": "load", "unit": unit, "measures": "force" if unit == "N" else "pressure"}}}
+    meant = {"load": Planted(size * numbers, unit.replace("bar", "Pa"), rate, assumed=(("samples", _GROUPS),))}
+    return Trial("a.csv", content, f"thousands as {style!r}", {"files": [stated]}, Meant({"a": meant}))
+
+
+def lost(rng):
+    """Rows that are not there: gaps where the rate is stated, else refused; a few equal instants are refused."""
+    count, rate, begin = int(rng.integers(60, 200)), float(draw(rng, _RATES[2:6])), float(draw(rng, (0.0, 0.5)))
+    one = column(rng, count, bad=0.0)
+    one = one if is_line(one) else column(np.random.default_rng(1), count, bad=0.0)
+    gone = np.unique(int(rng.integers(1, count - 12)) + rng.choice([0, 3, 4, 5, 6, 10], int(rng.integers(1, 6))))
+    instants, digits = begin + np.arange(count) / rate, int(draw(rng, (6, 9, 12)))
+    kept = np.setdiff1d(np.arange(count), gone)
+    rows = [f"{instants[k]:.{digits}f},{float(one.numbers[k])!r}" for k in kept]
+    stated = {"kind": "table", "runs": {"a": {}}, "time": "time [s]", "columns": {"x": one.stated("x")}}
+    how = draw(rng, ("rate", "resample", "nothing"))
+    stated |= {} if how == "nothing" else {"sample_rate" if how == "rate" else how: f"{rate!r} Hz"}
+    true = np.where(np.isin(np.arange(count), gone), np.nan, one.true)
+    planted = Planted(true, one.si, rate, begin, instant=2e-6 + 10.0**-digits)
+    if how == "resample":
+        planted = replace(planted, samples=_joined(true, one), exact=1e-3 if digits < 9 else 1e-5)
+    return Trial("a.csv", "\n".join(["time [s],x", *rows, ""]).encode(), f"rows lost, {how}", {"files": [stated]},
+                 Meant({"a": {"x": planted}}), "refuse" if how == "nothing" else "either")
+
+
+def _joined(true, one):
+    """Straight lines across gaps of up to three intervals."""
+    there = np.flatnonzero(np.isfinite(true))
+    numbers = np.interp(np.arange(len(true)), there, one.numbers[there])
+    whole = np.polyval(np.polyfit(one.numbers, one.true, 1), numbers)
+    for k in np.flatnonzero(np.diff(there) > 3):
+        whole[there[k] + 1:there[k + 1]] = np.nan
+    return whole
+
+
+def labview(rng):
+    """A LabVIEW measurement (.lvm) with X0, Delta_X and units in its head, after NI's specification."""
+    rate, begin, count = float(draw(rng, (50.0, 100.0, 256.0, 1000.0, 12800.0, 51200.0))), float(
+        draw(rng, (0.0, 0.5, -0.25))), int(rng.integers(60, 200))
+    columns, decimal, kind = _columns(rng, count), draw(rng, (".", ",")), draw(rng, ("One", "No", "Multi"))
+    columns = {key: one for key, one in columns.items() if np.isfinite(one.numbers).all()} or {
+        "ch0": column(rng, count, bad=0.0)}
+    head = ["LabVIEW Measurement", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab",
+            f"Decimal_Separator\t{decimal}", "Multi_Headings\tNo", f"X_Columns\t{kind}", "Time_Pref\tRelative",
+            "Date\t2026/03/02", "Time\t10:20:30,25", "***End_of_Header***\t", "\t"]
+    fields = {"Channels": [str(len(columns))], "Samples": [str(count)] * len(columns),
+              "Date": ["2026/03/02"] * len(columns), "Y_Unit_Label": [one.label for one in columns.values()],
+              "X_Dimension": ["Time"] * len(columns), "X0": [f"{begin:.16E}"] * len(columns),
+              "Delta_X": [f"{1 / rate:.16E}"] * len(columns)}
+    head += ["\t".join([key, *(v.replace(".", decimal) if key in ("X0", "Delta_X") else v for v in values)])
+             for key, values in fields.items()] + ["***End_of_Header***\t"]
+    names, rows = [], [[] for _ in range(count)]
+    for k, (key, one) in enumerate(columns.items()):
+        timed = kind == "Multi" or k == 0
+        names += ["X_Value"] * timed + [key]
+        for n in range(count):
+            instant = "" if kind == "No" else f"{begin + n / rate:.9f}".replace(".", decimal)
+            rows[n] += [instant] * timed + [repr(float(one.numbers[n])).replace(".", decimal)]
+    lines = [*head, "\t".join([*names, "Comment"]), *("\t".join([*row, ""]) for row in rows), ""]
+    stated = {"kind": "table", "runs": {"a": {}}, "time": "X_Value", "columns": {
+        f"c{k}": one.stated(key) for k, (key, one) in enumerate(columns.items())}}
+    meant = {f"c{k}": one.planted(rate, begin, instant=2e-6, exact_rate=1e-5) for k, one in enumerate(columns.values())}
+    either = any(one.asked for one in columns.values())
+    return Trial("a.lvm", "\n".join(lines).encode(), f"LabVIEW measurement, {kind}", {"files": [stated]},
+                 Meant({"a": meant}), "either" if either else "read")

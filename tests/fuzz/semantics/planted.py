@@ -1,7 +1,7 @@
 """Facts planted in a file, and how what a program reads of it is judged by them."""
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -92,10 +92,13 @@ def column(rng, count, stated=True, factors=_FACTORS, bad=0.06):
     return Column(numbers, label.text, label.size * factor * numbers + label.zero, label.si, label.measured, factor)
 
 
+def is_line(one):
+    """Whether a Column is a straight line of its numbers, as levels are not."""
+    return one.asked or np.allclose(np.polyval(np.polyfit(one.numbers, one.true, 1), one.numbers), one.true)
+
+
 def gaps(rng, one):
     """A Column some of whose samples are missing, none of them the first or last."""
-    from dataclasses import replace
-
     lost = np.zeros(len(one.numbers), bool)
     first = int(rng.integers(1, len(lost) - 6))
     lost[first:first + int(rng.integers(1, 5))] = True
