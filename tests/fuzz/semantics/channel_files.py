@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.fuzz.mutation import draw
-from tests.fuzz.semantics.planted import Meant, column, gaps, is_line
+from tests.fuzz.semantics.planted import Meant, column, cut, gaps, is_line
 from tests.fuzz.trial import Trial
 
 _T0 = np.datetime64("2026-03-02T10:20:30.250000", "us")
@@ -56,13 +56,16 @@ def tdms(rng):
 
     alone = bool(rng.random() < 0.5)
     objects, columns, clocks, starts = [], {}, {}, []
+    told_rate = None if alone or rng.random() < 0.7 else float(draw(rng, _RATES))   # groups without any timing
     for g in range(int(rng.integers(1, 4))):
         count, rate = int(rng.integers(40, 300)), float(draw(rng, _RATES))
         start = None if rng.random() < 0.15 else _T0 + np.timedelta64(int(rng.integers(0, 4_000_000)), "us")
         starts.append(start)
         common = {} if start is None else {"wf_start_time": start}
         timed, offset = rng.random() < 0.3, float(draw(rng, (0.0, 0.0, 0.5, -0.25, 1.125)))
-        if timed:
+        if told_rate and rng.random() < 0.5:
+            rate, begin, assumed = told_rate, 0.0, ()
+        elif timed:
             made, begin, assumed = _times(rng, count, rate, f"bench{g}", common)
             objects.append(made)
         else:
@@ -83,6 +86,8 @@ def tdms(rng):
     for (key, one), (rate, begin, start, assumed, single) in zip(named.items(), clocks.values(), strict=True):
         later = 0.0 if start is None else float((start - first) / np.timedelta64(1, "s"))
         meant[key] = one.planted(rate, begin + later, exact=1e-5 if single else 1e-6, assumed=assumed)
+    file |= {"sample_rate": f"{told_rate!r} Hz"} if told_rate else {}
+    file, meant = cut(rng, file, meant)
     return Trial("a.tdms", written(lambda path: _save(path, objects)), "starts, rates, units, scalings of TDMS",
                  {"files": [file]}, Meant({"a": meant}), _must(meant))
 
@@ -139,6 +144,8 @@ def mdf(rng):
         signals = []
         for c in range(int(rng.integers(1, 4))):
             one = column(rng, count, not alone, (1.0,) if alone else (1.0, -1.0, 2.5), 0.0 if jitters else 0.06)
+            if version == "3.30":       # asammdf leaves out what Latin 1 does not have
+                one = replace(one, label=one.label.replace("\u03bc", "\u00b5"))
             if jitters and not is_line(one):
                 one = replace(one, label="V", si="V", measured="voltage", true=one.factor * one.numbers)
             if jitters:     # a ramp: straight lines between its samples are right
@@ -153,6 +160,7 @@ def mdf(rng):
         exact = 1e-5 if single else 1e-6
         jittered = {"times": times, "assumed": (("samples", "beside even ones"),)} if jitters else {}
         meant[key] = one.planted(rate, times[0], exact=exact, **jittered)
+    file, meant = cut(rng, file, meant)
     return Trial("a.mf4", written(lambda path: _append(path, groups, version)), "clocks, conversions, gaps of MDF",
                  {"files": [file]}, Meant({"a": meant}), _must(meant))
 
@@ -177,9 +185,13 @@ def _raw(rng, one, version, jitters):
     """(Column, fields of a Signal, whether in single precision) of a channel as a converter, or a bus, has it."""
     from asammdf.blocks.v4_blocks import ChannelConversion
 
-    kind = draw(rng, ("plain", "plain", "single", "linear", "invalid", "texts"))
+    kind = draw(rng, ("plain", "plain", "single", "linear", "invalid", "texts", "rational"))
     kind = "plain" if jitters or (version == "3.30" and kind in ("invalid", "texts")) else kind
-    kind = "plain" if kind in ("linear", "texts") and not is_line(one) else kind
+    kind = "plain" if kind in ("linear", "texts", "rational") and not is_line(one) else kind
+    if kind == "rational":      # (P2 x + P3) / P6, as ASAP2 has it
+        one, raw, slope, intercept = scaled(rng, one)
+        return one, {"samples": raw, "conversion": {"P1": 0.0, "P2": slope, "P3": intercept, "P4": 0.0, "P5": 0.0,
+                                                    "P6": 1.0}}, False
     if kind == "linear":
         one, raw, slope, intercept = scaled(rng, one)
         return one, {"samples": raw, "conversion": {"a": slope, "b": intercept}}, False

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.io import savemat
 
 from tests.fuzz.mutation import draw
-from tests.fuzz.semantics.planted import Meant, Planted, column, gaps, is_line
+from tests.fuzz.semantics.planted import Meant, Planted, column, cut, gaps, is_line
 from tests.fuzz.trial import Trial
 
 _RATES = (10.0, 50.0, 100.0, 256.0, 1000.0, 2048.0, 12800.0, 25600.0, 44100.0, 51200.0)
@@ -45,7 +45,8 @@ def table(rng):
     meant = {f"c{k}": one.planted(rate, spoken["begin"], exact=1e-6, **spoken["open"])
              for k, one in enumerate(columns.values())}
     either = any(one.asked for one in columns.values()) or spoken["either"] or len(columns) + bool(spoken["times"]) < 2
-    return Trial("a.csv", content, f"table with times by {how}", {"files": [stated | given | spoken["given"]]},
+    stated, meant = cut(rng, stated | given | spoken["given"], meant)
+    return Trial("a.csv", content, f"table with times by {how}", {"files": [stated]},
                  Meant({"a": meant}), "either" if either else "read")
 
 
@@ -204,6 +205,7 @@ def matlab(rng):
         {"time": name} if name else {})
     meant = {f"c{k}": one.planted(rate, begin, assumed=assumed) for k, one in enumerate(columns.values())}
     either = assumed or any(one.asked for one in columns.values()) or (rate < 50 and kind != "rate")
+    stated, meant = cut(rng, stated, meant)
     return Trial("a.mat", stream.getvalue(), f"MATLAB, {kind}", {"files": [stated]}, Meant({"a": meant}),
                  "either" if either else "read")
 

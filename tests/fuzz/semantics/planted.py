@@ -129,6 +129,27 @@ class Meant:
         return Told("; ".join(told)) if told else ""
 
 
+def cut(rng, stated, meant, share=0.2):
+    """(section of a case, {name: Planted}) of a file, maybe with a run that is a part of the record: its begin and end
+    are instants between samples of every channel."""
+    if rng.random() > share or any(one.assumed or one.times is not None or one.asked for one in meant.values()):
+        return stated, meant
+    low = max(one.begin for one in meant.values())
+    high = min(one.begin + (len(one.samples) - 1) / one.rate for one in meant.values())
+    if high <= low:
+        return stated, meant
+    begin, end = np.round(sorted(rng.uniform(low, high, 2)), 7)
+    parts = {}
+    for name, one in meant.items():
+        first, last = (float((t - one.begin) * one.rate) for t in (begin, end))
+        if min(abs(t - round(t)) for t in (first, last)) < 0.05 or int(np.ceil(last)) - int(
+                np.ceil(first)) < 3 or np.isnan(one.samples[int(np.ceil(first)):int(np.ceil(last))]).all():
+            return stated, meant
+        part = slice(int(np.ceil(first)), int(np.ceil(last)))
+        parts[name] = replace(one, samples=one.samples[part], begin=one.begin + part.start / one.rate)
+    return stated | {"runs": {"a": {"begin": f"{float(begin)!r} s", "end": f"{float(end)!r} s"}}}, parts
+
+
 def _judged(planted, name, found, remarks):
     """'' of a channel as planted, Told of one of which a remark tells what is otherwise, else what is wrong."""
     if found is None:

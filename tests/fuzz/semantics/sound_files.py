@@ -7,7 +7,7 @@ import numpy as np
 
 from tests.fuzz.mutation import draw
 from tests.fuzz.semantics.channel_files import written
-from tests.fuzz.semantics.planted import Meant, Planted, column, signal
+from tests.fuzz.semantics.planted import Meant, Planted, column, cut, signal
 from tests.fuzz.trial import Trial
 
 _RATES = (8000, 11025, 16000, 22050, 44100, 48000, 51200, 96000)
@@ -59,9 +59,24 @@ def audio(rng):
         stated[name] = {"column": str(k + 1), "unit": unit, "factor": factor, "measures": measured}
         meant[name] = Planted(size * factor * shares, si, rate, exact=exact)
     content = sound(np.column_stack(columns), rate, form, subtype)
-    return Trial("a.wav", content, f"full scale, calibrators of {form} {subtype}",
-                 {"files": [{"kind": "audio", "columns": stated, "runs": {"a": {}}}],
-                  "others": tuple((name, cal) for name, cal in others)}, Meant({"a": meant}), "read")
+    file, meant = cut(rng, {"kind": "audio", "columns": stated, "runs": {"a": {}}}, meant)
+    return Trial("a.wav", content, f"full scale, calibrators of {form} {subtype}", {"files": [file], "others": others},
+                 Meant({"a": meant}), "read")
+
+
+def overloaded(rng):
+    """A tone whose recorder was driven beyond its range: its levels are lower bounds, as a remark tells."""
+    (form, subtype), steps = draw(rng, list(_FORMS.items()))
+    rate, count, factor = int(draw(rng, _RATES)), 6000, float(f"{10 ** rng.uniform(-1, 2):.4g}")
+    tone = float(rng.uniform(0.5, 2.0)) * np.sin(2 * np.pi * float(rng.uniform(0.02, 0.1)) * np.arange(count))
+    tone += 1e-3 * rng.normal(size=count)
+    largest = 1.0 if steps is None else 1.0 - 1.0 / steps
+    planted = Planted(factor * tone, "Pa", rate, exact=2.0 / (steps or 2**23) + 1e-6,
+                      assumed=(("samples", "overloaded"),))
+    stated = {"kind": "audio", "runs": {"a": {}}, "columns": {"mic": {"column": "1", "unit": "Pa", "factor": factor,
+                                                                      "measures": "sound_pressure"}}}
+    return Trial("a.wav", sound(np.clip(tone, -1.0, largest), rate, form, subtype), "a tone at the end of the range",
+                 {"files": [stated]}, Meant({"a": {"mic": planted}}), "read")
 
 
 def _calibrator(rng, gain, level, rate):
