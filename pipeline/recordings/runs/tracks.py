@@ -14,6 +14,8 @@ from pipeline.recordings.waveform import self_told, unit_of
 
 #: kinds of a calibrator's file by its suffix; any other is sound
 _KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
+#: how far a stated rate may be from that of the file
+_ALIKE = 1e-6
 
 
 def channels_of(file, imported, track):
@@ -43,6 +45,9 @@ def channels_of(file, imported, track):
             raise ConfigError(f"{where}: {name}", "samples", f"none: {even.remark}")
         if even.remark:
             told[even.remark].append(name)
+        if file.sample_rate and waveform.rate and abs(waveform.rate / file.sample_rate - 1.0) > _ALIKE:
+            told[f"the file states {waveform.rate:.6g} Hz, which is taken: sample_rate is that of channels without a"
+                 " rate"].append(name)
         line = f"add columns: {{{name}: {{unit: ...}}}}" if file.columns else f"add units: {{{name}: ...}}"
         return _channel(one, even, f"{where}: {name}", line, imported)
 
