@@ -9,7 +9,6 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, first_of
-from pipeline.contract.received.channel_units import plain
 from pipeline.contract.units import QUANTITIES, in_si, measured_in, quotient_in_si, read_as
 from pipeline.products import FrequencyResponse, MeasuredModes
 from pipeline.recordings import waveform
@@ -278,7 +277,6 @@ def _response(data_set, case, system):
     below, per = _unit(data_set, case, system, "orddenom", "ref_dir")
     if case.unit and _whole(case.unit, below):
         below, per = "", 1.0
-    upper, below = (plain(unit) for unit in (upper, below))
     spelt = upper if not below else f"({upper})/({below})" if "/" in below else f"{upper}/{below}"
     values, unit = quotient_in_si(factor / per * np.asarray(data_set["data"], complex), spelt, f"{case.where}: unit",
                                   case.line)

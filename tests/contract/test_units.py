@@ -111,7 +111,8 @@ def test_units_are_read_as_people_write_them(written, unit, factor):
 
 @pytest.mark.parametrize("unit, factor, name", [
     ("m/s2/N", 1.0, "m/s^2/N"), ("g_0/N", 9.80665, "m/s^2/N"), ("mm/kN", 1e-6, "m/N"), ("(mm/s)/(N)", 1e-3, "m/s/N"),
-    ("m/s^2", 1.0, "m/s^2"), ("(N)/(N m/rad)", 1.0, "rad/m"), ("m/Nm", 1.0, "m/N m"), ("V", 1.0, "V")])
+    ("m/s^2", 1.0, "m/s^2"), ("(N)/(N m/rad)", 1.0, "rad/m"), ("m/Nm", 1.0, "m/N m"), ("V", 1.0, "V"),
+    ("ms^-2/kN", 1e-3, "m/s^2/N"), ("mms-1/N", 1e-3, "m/s/N"), ("N/ms-1", 1.0, "N/m/s"), ("[mm]/N", 1e-3, "m/N")])
 def test_parts_of_a_quotient_keep_their_names(unit, factor, name):
     """An accelerance is no inverse mass to its reader."""
     assert quotient_in_si(3.0, unit, "here") == (pytest.approx(3 * factor), name)

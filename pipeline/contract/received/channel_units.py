@@ -159,12 +159,12 @@ def _whole(text):
 
 
 def _with_whole(text):
-    """(label of a response per reference with what _WHOLE says of either, whether that is a guess): ms-2/N is no
-    1/ms^2/N."""
+    """(label of a response per reference, both in plain characters and with what _WHOLE says of them, whether that is a
+    guess): ms-2/N is no 1/ms^2/N."""
     above, _, below = text.rpartition("/")
     parts = [plain(part) for part in (above, below)]
     known = [_whole(part) if part else None for part in parts]
-    if not above or not any(known):
+    if not above or not (any(known) or parts != [above, below]):
         return text, False
     spelt = [f"({one[0] or 1})" if one else f"({part})" for part, one in zip(parts, known, strict=True)]
     return "/".join(spelt), any(one[1] for one in known if one)

@@ -14,7 +14,7 @@ from pipeline.physics.rough.topography import level
 from tests.fuzz.mutation import draw
 from tests.fuzz.trial import Trial, difference
 
-_LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "µm": 1e-6}
+_LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "µm": 1e-6, "": 1.0}
 _ASCII = ("m", "mm", "um", "nm")
 
 
@@ -56,7 +56,7 @@ def scan(rng):
 def _gwyddion(rng):
     """A file of Gwyddion with one to three channels, of which one is heights or several are."""
     heights, spacing = surface(rng)
-    lateral, height = draw(rng, ("m", "m", "um", "nm", "mm", "µm")), draw(rng, ("m", "m", "um", "nm", "µm"))
+    lateral, height = draw(rng, ("m", "m", "um", "nm", "mm", "µm", "")), draw(rng, ("m", "m", "um", "nm", "µm", ""))
     heights = np.nan_to_num(heights)
     channels = [("Topography", heights / _LENGTHS[height], height)]
     others = [("Phase", "deg"), ("Amplitude error", "m"), ("Error", "V"), ("Height", height)]
@@ -65,7 +65,7 @@ def _gwyddion(rng):
     several = sum(unit in _LENGTHS for _, _, unit in channels) > 1
     named = {"channel": "Topography"} if several and rng.random() < 0.6 else {}
     content = gwyddion(channels, spacing, lateral)
-    must = "refuse" if several and not named else "either" if "µm" in (lateral, height) else "read"
+    must = "refuse" if (several and not named) or "" in (lateral, height) else "either" if "µm" in (lateral, height) else "read"
     return Trial("a.gwy", content, f"Gwyddion, {len(channels)} channels in {lateral}, {height}", named,
                  _meant(heights, spacing, 1e-6), must)
 
