@@ -32,7 +32,8 @@ def read_tdms(path, folder=None, time=None, time_unit=None):
             if file.file_status.incomplete_final_segment:
                 raise ConfigError(path, "a whole TDMS file", "one whose last segment is cut off", "copy it again")
             names = [_name(channel) for group in file.groups() for channel in group.channels()]
-            found = {name: one for group in file.groups() for name, one in _group(group, folder, time, time_unit).items()}
+            found = {name: one for group in file.groups()
+                     for name, one in _group(group, folder, time, time_unit).items()}
     except BrakechainError:
         raise
     except Exception as error:  # npTDMS passes on whatever its parser stumbles over

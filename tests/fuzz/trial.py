@@ -17,8 +17,8 @@ from pipeline.contract.received import process
 from tests import readers
 
 #: read: as it should be; told: otherwise, and a remark says what was assumed or left out; refused: one sentence;
-#: contained: one sentence about what the process of a reader stumbled over or did not survive. Failures: internal error;
-#: wrong numbers, or damage not noticed; rejected, although right; no answer in time; death of the process
+#: contained: one sentence about what the process of a reader stumbled over or did not survive. Failures: internal
+#: error; wrong numbers, or damage not noticed; rejected, although right; no answer in time; death of the process
 GOOD, BAD = ("read", "told", "refused", "contained"), ("internal", "wrong", "rejected", "hang", "crash")
 
 

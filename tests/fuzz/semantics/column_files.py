@@ -119,8 +119,8 @@ def _written(rng, columns, spoken):
     form = draw(rng, ("{!r}", "{!r}", "{:.9e}", "{:+.9g}"))
     texts += [[gone if np.isnan(v) else form.format(float(v)) for v in one.numbers] for one in columns.values()]
     if comma:
-        texts = [column if k == 0 and spoken.get("stamps") else [t.replace(".", ",") if t != gone else t for t in column]
-                 for k, column in enumerate(texts)]
+        texts = [each if k == 0 and spoken.get("stamps") else [t.replace(".", ",") if t != gone else t for t in each]
+                 for k, each in enumerate(texts)]
     names = [spoken["time"]] * (spoken["times"] is not None) + [spoken["names"][key] for key in columns]
     stream = io.StringIO()
     title = draw(rng, ([], [], ["Bench 3, stop 12"], ["Operator: A. B.", "", "Remarks: cold"]))
@@ -152,7 +152,7 @@ def _encoded(rng, text):
 def plain_text(rng):
     """What numpy.savetxt writes, with and without names."""
     rate, count = float(draw(rng, _RATES)), int(rng.integers(60, 300))
-    columns = {key: one for key, one in _columns(rng, count).items()}
+    columns = _columns(rng, count)
     times, named = np.arange(count) / rate, bool(rng.random() < 0.7)
     stream, mark = io.StringIO(), draw(rng, (" ", ",", ";", "\t"))
     names = ["time", *columns]

@@ -40,8 +40,10 @@ LABELS = [
              (_LBF, "lbf|lbsf"), (1e3 * _LBF, "klbf|kip"), (_G, "kgf|kp"), (1e-5, "dyn"), (1e6, "MN")),
     *_labels("force", "N", (_G, "kg"), (_LBF, "lb|lbs"), stated=True),
     *_labels("pressure", "Pa", (1.0, "Pa|PA|pascal|N/m^2"), (1e3, "kPa|KPa"), (1e6, "MPa|N/mm^2|N/mm2|N/mm²|MPa(g)"),
-             (1e5, "bar|Bar|BAR|bar(g)|barg|bar abs|bar_g|[bar]|bar (a)|daN/cm2"), (_PSI, "psi|PSI|psig|psi(a)|lbf/in^2"),
-             (100.0, "mbar|hPa"), (_ATM, "atm"), (_MMHG, "mmHg"), (_ATM / 760, "Torr"), (_G * 1e4, "kg/cm2|kgf/cm^2|kp/cm²"),
+             (1e5, "bar|Bar|BAR|bar(g)|barg|bar abs|bar_g|[bar]|bar (a)|daN/cm2"),
+             (_PSI, "psi|PSI|psig|psi(a)|lbf/in^2"),
+             (100.0, "mbar|hPa"), (_ATM, "atm"), (_MMHG, "mmHg"), (_ATM / 760, "Torr"),
+             (_G * 1e4, "kg/cm2|kgf/cm^2|kp/cm²"),
              (1e3 * _PSI, "ksi"), (25.4 * _MMHG, "inHg")),
     *_labels("sound_pressure", "Pa", (1.0, "Pa|PA|N/m2"), (1e-3, "mPa"), (1e-6, "µPa|uPa"), stated=True),
     *_labels("angle", "rad", (1.0, "rad|radians"), (_TURN / 360, "deg|°|degrees|Deg"), (_TURN, "rev|turn"),
@@ -67,9 +69,9 @@ LABELS = [
     Label("dBV", 1.0, "voltage", "V", level=True), Label("dB re 1 V", 1.0, "voltage", "V", level=True),
 ]
 #: what no channel has, or what may be several: to be asked back, whatever is measured
-ASKED_BACK = ("EU", "eu", "", "mol", "dB", "dB(A)", "dBA", "dB(C)", "kG", "xyz", "V/g", "m^7", "Pa^3", "units", "g/N", "tbd",
-              "ton", "N/A", "mm pk-pk", "G p-p", "sone", "n.a.", "raw", "mV/Pa", "grad", "cd", "kg^2", "???", "#", "a.u.",
-              "None", "Sv")
+ASKED_BACK = ("EU", "eu", "", "mol", "dB", "dB(A)", "dBA", "dB(C)", "kG", "xyz", "V/g", "m^7", "Pa^3", "units",
+              "g/N", "tbd", "ton", "N/A", "mm pk-pk", "G p-p", "sone", "n.a.", "raw", "mV/Pa", "grad", "cd",
+              "kg^2", "???", "#", "a.u.", "None", "Sv")
 
 
 def drawn(rng, stated):

@@ -21,9 +21,9 @@ class Planted:
     """What a channel truly is: ``samples`` (sample,) in ``si``, NaN where missing, at ``rate`` Hz from ``begin`` s.
 
     ``exact`` and ``exact_rate``: relative deviations that the numbers of the file leave open, ``instant`` the same of
-    its begin in s. ``asked``: it must be asked back or left out aloud. ``assumed``: (which of samples, unit, rate, begin
-    may be otherwise, pattern of the remark that tells so). ``times`` (sample,): uneven instants of samples on a straight
-    line, which are right at every instant that is read.
+    its begin in s. ``asked``: it must be asked back or left out aloud. ``assumed``: (which of samples, unit, rate and
+    begin may be otherwise, pattern of the remark that tells so). ``times`` (sample,): uneven instants of samples on a
+    straight line, which are right at every instant that is read.
     """
 
     samples: np.ndarray
@@ -48,8 +48,8 @@ class Planted:
 
 @dataclass(frozen=True)
 class Column:
-    """A channel to be written: ``numbers`` (sample,) as the file has them in a ``label``, NaN where missing; ``true`` in
-    ``si``; ``factor`` of the case."""
+    """A channel to be written: ``numbers`` (sample,) as the file has them in a ``label``, NaN where missing; ``true``
+    in ``si``; ``factor`` of the case."""
 
     numbers: np.ndarray
     label: str

@@ -8,8 +8,8 @@ import zipfile
 import numpy as np
 
 from pipeline.case_models.rough.scans import levelled
-from pipeline.contract.settings import fill
 from pipeline.case_models.rough.sections import ScanFile
+from pipeline.contract.settings import fill
 from pipeline.physics.rough.topography import level
 from tests.fuzz.mutation import draw
 from tests.fuzz.trial import Trial, difference
@@ -41,9 +41,8 @@ def _meant(heights, spacing, exact):
     """The check of a scan by its true heights and pixels."""
     def check(value):
         wanted = level(heights, spacing)[0]
-        said = difference(np.array(value["spacing"]), np.array(spacing), 1e-4, "pixels") or difference(
+        return difference(np.array(value["spacing"]), np.array(spacing), 1e-4, "pixels") or difference(
             value["heights"], wanted, exact, "heights")
-        return said
 
     return check
 
@@ -65,7 +64,8 @@ def _gwyddion(rng):
     several = sum(unit in _LENGTHS for _, _, unit in channels) > 1
     named = {"channel": "Topography"} if several and rng.random() < 0.6 else {}
     content = gwyddion(channels, spacing, lateral)
-    must = "refuse" if (several and not named) or "" in (lateral, height) else "either" if "µm" in (lateral, height) else "read"
+    asked = (several and not named) or "" in (lateral, height)
+    must = "refuse" if asked else "either" if "µm" in (lateral, height) else "read"
     return Trial("a.gwy", content, f"Gwyddion, {len(channels)} channels in {lateral}, {height}", named,
                  _meant(heights, spacing, 1e-6), must)
 
@@ -196,8 +196,8 @@ def _x3p(rng):
             "<Date>2026-11-27T08:00:00</Date><Creator>test</Creator></Record2><Record3><MatrixDimension><SizeX>"
             f"{heights.shape[1]}</SizeX><SizeY>{heights.shape[0]}</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink>"
             "<PointDataLink>bindata/data.bin</PointDataLink><MD5ChecksumPointData>"
-            f"{hashlib.md5(data, usedforsecurity=False).hexdigest()}</MD5ChecksumPointData></DataLink></Record3><Record4>"
-            "<ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>")
+            f"{hashlib.md5(data, usedforsecurity=False).hexdigest()}</MD5ChecksumPointData></DataLink></Record3>"
+            "<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>")
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as file:
         file.writestr("main.xml", head)

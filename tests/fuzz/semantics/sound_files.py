@@ -110,9 +110,10 @@ def pair(rng):
                                                                      "measures": "sound_pressure"}}}
     second = stated | {"file": name, "runs": {"a": {}}, "columns": {"line": named}}
     second |= {"offset": f"{offset!r} s"} if how == "stated" else {}
-    meant = {"mic": Planted(2.0 * shares, "Pa", rate), "line": Planted(one.true, one.si, slow, offset, instant=1.0 / rate)}
-    return Trial("a.wav", content, f"two recorders, offset {how}", {"files": [first, second],
-                                                                   "others": ((name, other),)}, Meant({"a": meant}), "read")
+    meant = {"mic": Planted(2.0 * shares, "Pa", rate),
+             "line": Planted(one.true, one.si, slow, offset, instant=1.0 / rate)}
+    return Trial("a.wav", content, f"two recorders, offset {how}",
+                 {"files": [first, second], "others": ((name, other),)}, Meant({"a": meant}), "read")
 
 
 def _in_tdms(one, rate, start):

@@ -1,4 +1,4 @@
-"""Planted facts in universal files by pyuff: units of labels, of the case and of the file, abscissae, sign, responses."""
+"""Planted facts in universal files by pyuff: units of labels, case and file, abscissae, sign, responses."""
 
 from dataclasses import dataclass, replace
 
@@ -17,10 +17,12 @@ _RATES = (50.0, 100.0, 256.0, 1000.0, 2048.0, 12800.0, 25600.0, 44100.0, 51200.0
 _TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "SEC": 1.0, "msec": 1e-3, "Milliseconds": 1e-3, "NONE": 1.0}
 _FREQUENCIES = {"Hz": 1.0, "HZ": 1.0, "kHz": 1e3, "rad/s": 0.5 / np.pi, "RPM": 1 / 60, "NONE": 1.0}
 #: units of the file: size of a metre and of a newton in them
-_SYSTEMS = ((1.0, 1.0), (1e3, 1.0), (1e2, 1e5), (39.3700787401575, 0.224808943099711), (3.28083989501312, 0.224808943099711))
+_SYSTEMS = ((1.0, 1.0), (1e3, 1.0), (1e2, 1e5), (39.3700787401575, 0.224808943099711),
+            (3.28083989501312, 0.224808943099711))
 #: a quantity -> its SI unit and the powers of length and force in it
-_POWERS = {"displacement": ("m", 1, 0), "velocity": ("m/s", 1, 0), "acceleration": ("m/s^2", 1, 0), "force": ("N", 0, 1),
-           "pressure": ("Pa", -2, 1), "angle": ("rad", 0, 0), "angular_velocity": ("rad/s", 0, 0), "torque": ("N m", 1, 1)}
+_POWERS = {"displacement": ("m", 1, 0), "velocity": ("m/s", 1, 0), "acceleration": ("m/s^2", 1, 0),
+           "force": ("N", 0, 1), "pressure": ("Pa", -2, 1), "angle": ("rad", 0, 0), "angular_velocity": ("rad/s", 0, 0),
+           "torque": ("N m", 1, 1)}
 
 
 def _saved(sets):
@@ -39,8 +41,9 @@ def _saved(sets):
 
 
 def _head(rng, name, node, direction):
-    return {"binary": int(draw(rng, (0, 1))), "rsp_node": node, "rsp_dir": direction, "rsp_ent_name": name, "ref_node": 1,
-            "ref_dir": 0, "id1": "made for a test", "ordinate_axis_lab": "NONE", "orddenom_spec_data_type": 0,
+    return {"binary": int(draw(rng, (0, 1))), "rsp_node": node, "rsp_dir": direction, "rsp_ent_name": name,
+            "ref_node": 1, "ref_dir": 0,
+            "id1": "made for a test", "ordinate_axis_lab": "NONE", "orddenom_spec_data_type": 0,
             "orddenom_axis_units_lab": "NONE"}
 
 

@@ -1,4 +1,4 @@
-"""Files by the writers of others with planted facts: what is read has their numbers, instants and sign, or says why not."""
+"""Files by the writers of others with planted facts: their numbers, instants and sign come back, or it is said why."""
 
 from tests.fuzz.semantics import channel_files, column_files, neutral_files, scans, sound_files, universal_files
 from tests.fuzz.semantics.planted import read

@@ -86,8 +86,9 @@ def times_in(path, unit="", name="Time"):
     from nptdms import ChannelObject, TdmsWriter
 
     with TdmsWriter(str(path)) as writer:
-        writer.write_segment([ChannelObject("log", one, values, properties={"unit_string": label}) for one, values, label
-                              in ((name, 500.0 + np.arange(200) / 10, unit), ("line", SINE[:200], "bar"))])
+        writer.write_segment([
+            ChannelObject("log", one, values, properties={"unit_string": label})
+            for one, values, label in ((name, 500.0 + np.arange(200) / 10, unit), ("line", SINE[:200], "bar"))])
     return path
 
 
