@@ -8,7 +8,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
-from pipeline.contract.units import in_si
+from pipeline.contract.units import in_si, unlike
 from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
@@ -17,6 +17,7 @@ from pipeline.recordings.lines import line_list
 from pipeline.recordings.runs.imported import Imported
 from pipeline.recordings.runs.tracks import channels_of
 from pipeline.recordings.samples import channel, stretch
+from pipeline.recordings.survey.meanings import split_unit
 from pipeline.recordings.tables.layout import Form
 from pipeline.recordings.tables.matrices import stated_rates
 from pipeline.recordings.tables.sampling import sampled
@@ -226,6 +227,7 @@ def _from_columns(file, table, imported):
     where, found, columns = f"{file.file}", {}, table.columns
     table.used({f"{where}: {name}.column": w.column for name, w in file.columns.items()}
                | ({} if file.time is None else {f"{where}: time": file.time}))
+    table.on_clock({f"{where}: {name}.column": w.column for name, w in file.columns.items()}, file.time)
     if file.time is None and file.sample_rate is None and table.rate is None:
         raise ConfigError(f"{where}: time", "a sampling rate or a column of times", "neither", "add sample_rate or time"
                           + stated_rates(columns))
@@ -233,6 +235,9 @@ def _from_columns(file, table, imported):
         imported.tell(f"{where}: {remark}")
     for name, w in file.columns.items():
         imported.guessed(w.unit, w.measures, f"{where}: {name}")
+        written = table.units.get(w.column) or split_unit(w.column)[1]
+        if w.factor == 1.0 and written and unlike(written, w.unit, w.measures):
+            imported.tell(f"{where}: {name}: the file says {written!r}, the case {w.unit!r}, which is taken")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}

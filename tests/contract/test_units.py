@@ -5,7 +5,7 @@ import pint
 import pytest
 
 from pipeline.contract import ConfigError, units
-from pipeline.contract.units import SI, in_si, quotient_in_si, to_si
+from pipeline.contract.units import SI, in_si, quotient_in_si, to_si, unlike
 
 #: spelt -> unit: what is read without pint
 PLAIN = {**{f"{prefix}{unit}": unit for unit in ("m", "s", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A")
@@ -123,3 +123,11 @@ def test_parts_of_a_quotient_keep_their_names(unit, factor, name):
 def test_what_is_not_finite_or_of_other_digits_is_refused(text, unit):
     with pytest.raises(ConfigError, match="expected a quantity in"):
         to_si(text, unit, "x")
+
+
+@pytest.mark.parametrize("one, other, measures, told", [
+    ("kN", "N", "force", True), ("m/s2", "m/s^2", "acceleration", False), ("G", "g", "acceleration", False),
+    ("degC", "K", "temperature", True), ("kg", "kgf", "force", False), ("EU", "N", "force", False),
+    ("mm", "kN", "force", True), ("bar(g)", "bar", "pressure", False)])
+def test_units_that_make_other_numbers(one, other, measures, told):
+    assert unlike(one, other, measures) == told

@@ -49,7 +49,8 @@ class Form(Section):
 class Layout:
     """``names`` and ``units`` {name: unit} of the columns, their ``positions``; ``first`` and ``last``: numbers of the
     lines, counted from 0, with the first numbers and behind the last ones; ``rate`` in Hz as the head states it, or
-    None; ``remarks``; ``shown``: how the lines are understood; ``repeated`` {name: as written} of those numbered."""
+    None; ``remarks``; ``shown``: how the lines are understood; ``repeated`` {name: as written} of those numbered;
+    ``begin`` in s of what has no times."""
 
     delimiter: str
     decimal: str
@@ -62,6 +63,7 @@ class Layout:
     remarks: list
     shown: str
     repeated: dict = field(default_factory=dict)
+    begin: float = 0.0
 
 
 def layout(lines, path, form, encoding):

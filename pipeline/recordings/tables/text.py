@@ -44,6 +44,21 @@ class TextTable:
             if name not in self.columns:
                 raise ConfigError(where, f"one of {', '.join(self.columns)}", repr(name), self._instead(name))
 
+    def on_clock(self, wanted, time):
+        """Refuse columns ``wanted`` {where: name} that stand behind another column of times than ``time``, of those of
+        one name that differ (ConfigError)."""
+        names = list(self.columns)
+        plain = re.sub(r" \(\d+\)$", "", time or "")
+        clocks = [name for name in names if re.fullmatch(re.escape(plain) + r" \(\d+\)", name)]
+        if time not in clocks or clocks[0] != names[0]:
+            return
+        for where, name in wanted.items():
+            clock = [other for other in clocks if names.index(other) < names.index(name)][-1:]
+            if clock and clock[0] != time:
+                raise ConfigError(where, f"a column behind {time!r}, whose times it has", f"{name!r}, which stands"
+                                  f" behind {clock[0]!r}", "list the file once more, with offset: 0 s and time:"
+                                  f" {clock[0]!r}")
+
     def _instead(self, name):
         parts = [column for column in self.columns if re.fullmatch(re.escape(name) + r"\(:?\d*,:?\d*\)", column)]
         if parts:
@@ -124,7 +139,8 @@ def _table(head, rows, path):
             remarks.append(f"{name} holds time stamps: seconds from {texts[0][1]} on")
             values, units[name] = seconds, "s"
         columns[name] = np.array(values, float)
-    return TextTable(*_merged(columns, units, head.repeated), head.rate, flaws, remarks, head.shown)
+    return TextTable(*_merged(columns, units, head.repeated), head.rate, flaws, remarks, head.shown,
+                     head.begin)
 
 
 def _merged(columns, units, repeated):

@@ -77,7 +77,7 @@ def _spoken(rng, columns, how, unit, rate, begin, count):
         return made | {"row": word}
     if how == "setting":
         return made | {"given": {"time": name, "time_unit": unit}}
-    if how == "rate and times" and unit == "s":
+    if how == "rate and times":     # which tells the unit
         return made | {"given": {"time": name, "sample_rate": f"{rate!r} Hz"}}
     if how == "head":
         return made | {"head": [_said(rng, rate)]}
@@ -270,23 +270,39 @@ def labview(rng):
     head = ["LabVIEW Measurement", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab",
             f"Decimal_Separator\t{decimal}", "Multi_Headings\tNo", f"X_Columns\t{kind}", "Time_Pref\tRelative",
             "Date\t2026/03/02", "Time\t10:20:30,25", "***End_of_Header***\t", "\t"]
+    apart = rng.random() < 0.4      # each channel with its own begin and interval
+    clocks = [(begin + apart * k * 0.25, rate / (1 + apart * (k % 2))) for k in range(len(columns))]
     fields = {"Channels": [str(len(columns))], "Samples": [str(count)] * len(columns),
               "Date": ["2026/03/02"] * len(columns), "Y_Unit_Label": [one.label for one in columns.values()],
-              "X_Dimension": ["Time"] * len(columns), "X0": [f"{begin:.16E}"] * len(columns),
-              "Delta_X": [f"{1 / rate:.16E}"] * len(columns)}
+              "X_Dimension": ["Time"] * len(columns), "X0": [f"{first:.16E}" for first, _ in clocks],
+              "Delta_X": [f"{1 / each:.16E}" for _, each in clocks]}
     head += ["\t".join([key, *(v.replace(".", decimal) if key in ("X0", "Delta_X") else v for v in values)])
              for key, values in fields.items()] + ["***End_of_Header***\t"]
     names, rows = [], [[] for _ in range(count)]
-    for k, (key, one) in enumerate(columns.items()):
+    for k, ((key, one), (first, each)) in enumerate(zip(columns.items(), clocks, strict=True)):
         timed = kind == "Multi" or k == 0
         names += ["X_Value"] * timed + [key]
         for n in range(count):
-            instant = "" if kind == "No" else f"{begin + n / rate:.9f}".replace(".", decimal)
+            instant = "" if kind == "No" else f"{first + n / each:.9f}".replace(".", decimal)
             rows[n] += [instant] * timed + [repr(float(one.numbers[n])).replace(".", decimal)]
     lines = [*head, "\t".join([*names, "Comment"]), *("\t".join([*row, ""]) for row in rows), ""]
-    stated = {"kind": "table", "runs": {"a": {}}, "time": "X_Value", "columns": {
-        f"c{k}": one.stated(key) for k, (key, one) in enumerate(columns.items())}}
-    meant = {f"c{k}": one.planted(rate, begin, instant=2e-6, exact_rate=1e-5) for k, one in enumerate(columns.values())}
-    either = any(one.asked for one in columns.values())
-    return Trial("a.lvm", "\n".join(lines).encode(), f"LabVIEW measurement, {kind}", {"files": [stated]},
-                 Meant({"a": meant}), "either" if either else "read")
+    files, must = _sections(rng, columns, apart and len(columns) > 1, kind)
+    meant = {f"c{k}": one.planted(*clock[::-1], instant=2e-6, exact_rate=1e-5)
+             for k, (one, clock) in enumerate(zip(columns.values(), clocks, strict=True))}
+    return Trial("a.lvm", "\n".join(lines).encode(), f"LabVIEW measurement, {kind}", {"files": files},
+                 Meant({"a": meant}), "either" if any(one.asked for one in columns.values()) else must)
+
+
+def _sections(rng, columns, apart, kind):
+    """(sections of a case, whether they must be read or refused) of a LabVIEW measurement: one of all channels, or,
+    where these are ``apart``, one for each."""
+    stated = {"kind": "table", "runs": {"a": {}}}
+    named = {f"c{k}": one.stated(key) for k, (key, one) in enumerate(columns.items())}
+    if not apart:
+        timed = rng.random() < 0.6
+        return [stated | {"columns": named} | ({"time": "X_Value"} if timed else {})], "read"
+    if kind == "Multi" and rng.random() < 0.6:
+        return [stated | {"columns": {key: one}, "time": f"X_Value ({k + 1})"} | ({"offset": "0 s"} if k else {})
+                for k, (key, one) in enumerate(named.items())], "read"
+    time = draw(rng, ({}, {"time": "X_Value (1)" if kind == "Multi" else "X_Value"}))
+    return [stated | {"columns": named} | time], "refuse"
