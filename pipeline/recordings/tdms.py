@@ -1,6 +1,7 @@
 """TDMS files of LabVIEW and its relatives. The door of npTDMS."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -70,9 +71,25 @@ def _group(group, folder, time, time_unit):
             continue
         beside = [other for other in (*map(_name, reversed(channels[:k])), *map(_name, channels[k:]))
                   if other in clocks and name not in clocks and len(clocks[other][1]) == len(channel)]
-        found[name], by = _read(channel, beside[0] if beside else "", clocks, folder)
+        near = time if time in beside else beside[0] if beside else ""
+        found[name], by = _read(channel, near, clocks, folder)
+        told = _doubt(near, beside, clocks, list(map(_name, channels))) if by and by != time else ""
+        if told:
+            whole = found[name].waveform
+            found[name] = replace(found[name], waveform=replace(whole, remark="; ".join(filter(None, [
+                whole.remark, told]))))
         used.add(by)
     return {name: one for name, one in found.items() if name not in used}
+
+
+def _doubt(near, beside, clocks, order):
+    """What to say of times ``near`` a channel where others are ``beside`` it and the ``order`` of the group does not
+    tell: times stand before the channels that have them."""
+    clear = order[0] in clocks and order[-1] not in clocks and not any(
+        one in clocks and other in clocks for one, other in pairwise(order))
+    others = [] if clear else [other for other in beside if clocks[other][0] != clocks[near][0]
+                               or not np.array_equal(clocks[other][1], clocks[near][1])]
+    return f"its times are those of {near}, not of {others[0]}: time: {others[0]} takes these" if others else ""
 
 
 def _read(channel, near, clocks, folder):
