@@ -313,7 +313,7 @@ READ = {"matlab": lambda file, imported: _from_columns(file, TextTable.of(
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
         "uff": lambda file, imported: _on_clock(file, _from_uff(file, imported), imported),
         "friction": lambda file, _: _from_friction(file), "lines": lambda file, _: _from_facts(file),
-        "hdf5": lambda file, imported: _on_clock(file, runs("hdf5", file.file), imported)}
+        "hdf5": lambda file, imported: _on_clock(file, runs("hdf5", file.file, imported.tell), imported)}
 
 
 def _run(channels, stated, where, **more):
