@@ -8,7 +8,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
-from pipeline.contract.units import in_si, unlike
+from pipeline.contract.units import in_si, makes_other_numbers
 from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
@@ -236,7 +236,7 @@ def _from_columns(file, table, imported):
     for name, w in file.columns.items():
         imported.guessed(w.unit, w.measures, f"{where}: {name}")
         written = table.units.get(w.column) or split_unit(w.column)[1]
-        if w.factor == 1.0 and written and unlike(written, w.unit, w.measures):
+        if w.factor == 1.0 and written and makes_other_numbers(written, w.unit, w.measures):
             imported.tell(f"{where}: {name}: the file says {written!r}, the case {w.unit!r}, which is taken")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}

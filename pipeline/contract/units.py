@@ -177,7 +177,7 @@ def in_si(values, unit, where, measures="", line=""):
     return _registry().Quantity(values, reading.unit).to(_for_pint(name)).magnitude, name
 
 
-def unlike(unit, other, measures=""):
+def makes_other_numbers(unit, other, measures=""):
     """Whether a ``unit`` makes other numbers of what is measured than an ``other`` one; False where either is none."""
     ends = np.array([0.0, 1.0])
     try:

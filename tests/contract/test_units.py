@@ -5,7 +5,7 @@ import pint
 import pytest
 
 from pipeline.contract import ConfigError, units
-from pipeline.contract.units import SI, in_si, quotient_in_si, to_si, unlike
+from pipeline.contract.units import SI, in_si, makes_other_numbers, quotient_in_si, to_si
 
 #: spelt -> unit: what is read without pint
 PLAIN = {**{f"{prefix}{unit}": unit for unit in ("m", "s", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A")
@@ -130,4 +130,4 @@ def test_what_is_not_finite_or_of_other_digits_is_refused(text, unit):
     ("degC", "K", "temperature", True), ("kg", "kgf", "force", False), ("EU", "N", "force", False),
     ("mm", "kN", "force", True), ("bar(g)", "bar", "pressure", False)])
 def test_units_that_make_other_numbers(one, other, measures, told):
-    assert unlike(one, other, measures) == told
+    assert makes_other_numbers(one, other, measures) == told

@@ -33,15 +33,15 @@ SHORT = {
     "run list": 500,
     "verify set": 15,
     "score set": 30,
-    "tdms meaning": 40,
+    "tdms meaning": 30,
     "mdf meaning": 30,
-    "audio meaning": 40,
-    "files meaning": 40,
-    "table meaning": 40,
+    "audio meaning": 30,
+    "files meaning": 30,
+    "table meaning": 30,
     "matlab meaning": 60,
-    "uff meaning": 12,
+    "uff meaning": 10,
     "scan meaning": 20,
-    "hdf5 meaning": 10,
+    "hdf5 meaning": 6,
 }
 #: targets of which every input is right
 WHOLE = ("run list", "files meaning", "audio meaning", "hdf5 meaning")
