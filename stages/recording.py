@@ -8,7 +8,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.fingerprint import digest
-from pipeline.contract.units import in_si
+from pipeline.contract.units import in_si, makes_other_numbers
 from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
@@ -17,6 +17,7 @@ from pipeline.recordings.lines import line_list
 from pipeline.recordings.runs.imported import Imported
 from pipeline.recordings.runs.tracks import channels_of
 from pipeline.recordings.samples import channel, stretch
+from pipeline.recordings.survey.meanings import split_unit
 from pipeline.recordings.tables.layout import Form
 from pipeline.recordings.tables.matrices import stated_rates
 from pipeline.recordings.tables.sampling import sampled
@@ -107,6 +108,7 @@ class Waveforms(_Clocked):
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none; of uneven time"
                                                      " stamps that of the grid that they are put on")
     time: str | None = option(None, "channel with the times, 'GROUP/CHANNEL' of a TDMS file; none = by its name")
+    time_unit: str | None = option(None, "unit of such channels; none = as they say, else s")
     runs: dict[str, Stretch] = option({}, "runs by name: stretches of the record; none = one run, named as the file")
 
 
@@ -225,6 +227,7 @@ def _from_columns(file, table, imported):
     where, found, columns = f"{file.file}", {}, table.columns
     table.used({f"{where}: {name}.column": w.column for name, w in file.columns.items()}
                | ({} if file.time is None else {f"{where}: time": file.time}))
+    table.on_clock({f"{where}: {name}.column": w.column for name, w in file.columns.items()}, file.time)
     if file.time is None and file.sample_rate is None and table.rate is None:
         raise ConfigError(f"{where}: time", "a sampling rate or a column of times", "neither", "add sample_rate or time"
                           + stated_rates(columns))
@@ -232,6 +235,9 @@ def _from_columns(file, table, imported):
         imported.tell(f"{where}: {remark}")
     for name, w in file.columns.items():
         imported.guessed(w.unit, w.measures, f"{where}: {name}")
+        written = table.units.get(w.column) or split_unit(w.column)[1]
+        if w.factor == 1.0 and written and makes_other_numbers(written, w.unit, w.measures):
+            imported.tell(f"{where}: {name}: the file says {written!r}, the case {w.unit!r}, which is taken")
     for rows in dict.fromkeys(run.rows for run in file.runs.values()):
         part = {name: values[slice(*(rows or (None,)))] for name, values in columns.items()}
         values = {name: w.factor * part[w.column] for name, w in file.columns.items()}
@@ -307,7 +313,7 @@ READ = {"matlab": lambda file, imported: _from_columns(file, TextTable.of(
         "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
         "uff": lambda file, imported: _on_clock(file, _from_uff(file, imported), imported),
         "friction": lambda file, _: _from_friction(file), "lines": lambda file, _: _from_facts(file),
-        "hdf5": lambda file, imported: _on_clock(file, runs("hdf5", file.file), imported)}
+        "hdf5": lambda file, imported: _on_clock(file, runs("hdf5", file.file, imported.tell), imported)}
 
 
 def _run(channels, stated, where, **more):

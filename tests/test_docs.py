@@ -63,6 +63,24 @@ def test_the_layout_names_every_package():
     assert max(len(line) for line in layout.splitlines()) <= 120 and len(layout.splitlines()) < 50, "one screen"
 
 
+def inputs_of(file, name):
+    """Number of inputs of a test by its parameters as written: 1 of a list that has a name."""
+    node = next((n for n in ast.parse((ROOT / file).read_text()).body if getattr(n, "name", None) == name), None)
+    assert node is not None, f"{file}::{name}"
+    lists = [call.args[1] for call in node.decorator_list if isinstance(call, ast.Call) and len(call.args) > 1]
+    return np.prod([len(each.elts) if isinstance(each, ast.List | ast.Tuple) else 1 for each in lists], initial=1)
+
+
+def test_kinds_of_files_name_tests_of_three_inputs_or_more():
+    page = (ROOT / "docs" / "file_kinds.md").read_text()
+    rows = [line for line in page.splitlines() if line.startswith("| ") and "::" in line]
+    assert len(rows) >= 26
+    for row in rows:
+        named = re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", row)
+        assert named and row.count("::") == len(named), row
+        assert sum(inputs_of(*each) for each in named) >= 3, row
+
+
 def test_links_between_documents_lead_somewhere():
     for page in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):

@@ -177,6 +177,24 @@ def in_si(values, unit, where, measures="", line=""):
     return _registry().Quantity(values, reading.unit).to(_for_pint(name)).magnitude, name
 
 
+def makes_other_numbers(unit, other, measures=""):
+    """Whether a ``unit`` makes other numbers of what is measured than an ``other`` one; False where either is none."""
+    ends = np.array([0.0, 1.0])
+    try:
+        wanted, name = in_si(ends, other, "unit", measures)
+        made, si = in_si(ends, unit, "unit", measures if _can_have(unit, measures) else "")
+    except ConfigError:
+        return False
+    return si != name or not np.allclose(made, wanted, rtol=1e-6, atol=0.0)
+
+
+def _can_have(unit, measures):
+    try:
+        return bool(in_si(1.0, unit, "unit", measures))
+    except ConfigError:
+        return False
+
+
 def read_as(unit, measures="", response=False):
     """What a ``unit``, of a ``response`` per reference or of samples, is taken for where that is a guess, as
     "9.80665 m/s^2" of "G"; '' otherwise, and of none."""

@@ -99,15 +99,21 @@ def _vectors(read):
 
 
 def _universal(path, folder, **given):
-    remarks = []
-    channels, frf, modes = read_uff(path, **given, tell=remarks.append)
-    (Path(folder) / _REMARKS).write_text(json.dumps(remarks))
+    channels, frf, modes = _told(read_uff, path, folder, **given)
     return {"file": Run(description="", repeat_of="", channels=channels, frf=frf, modes=modes)}
+
+
+def _told(read, path, folder, **given):
+    """What a reader returns; what it tells is left in ``folder``."""
+    remarks = []
+    found = read(path, **given, tell=remarks.append)
+    (Path(folder) / _REMARKS).write_text(json.dumps(remarks))
+    return found
 
 
 #: kind of file -> (reader of a path and the folder for what is long, what leaves its answer)
 _READERS = {"matlab": (lambda path, _: matlab_waveforms(path), _leave_columns),
             "columns": (_vectors(read_columns), _leave_columns),
             "audio": (read_audio, _leave_columns), "tdms": (read_tdms, _leave_columns),
-            "mdf": (read_mdf, _leave_columns), "hdf5": (lambda path, _: read_neutral(path), _leave_runs),
+            "mdf": (read_mdf, _leave_columns), "hdf5": (partial(_told, read_neutral), _leave_runs),
             "uff": (_universal, _leave_runs)}

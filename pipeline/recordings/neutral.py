@@ -7,7 +7,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received.hdf5 import refuse_outside
-from pipeline.contract.units import in_si, quotient_in_si
+from pipeline.contract.units import in_si, quotient_in_si, read_as
 from pipeline.products import (
     Condition,
     FrequencyResponse,
@@ -21,7 +21,7 @@ from pipeline.recordings.friction import SILENT
 from pipeline.recordings.samples import channel
 
 
-def read_neutral(path):
+def read_neutral(path, tell=None):
     """Run name -> Run of an HDF5 file of this form; a star marks optional items:
 
         /runs/RUN                          attributes description*, repeat_of*
@@ -37,16 +37,27 @@ def read_neutral(path):
             topography/NAME*               (y, x) heights; attributes units, pixel_size (m), body*, state*
             friction/NAME*                 group: friction, friction_std*, pressure, speed, distance*, temperature* (SI)
 
-    Raises ConfigError with the path in the file of anything that is missing or unreadable.
+    ``tell`` is called with what labels of units are taken for. Raises ConfigError with the path in the file of anything
+    that is missing or unreadable.
     """
     try:
         with h5py.File(path, "r") as h5:
             refuse_outside(h5, path)
             if not isinstance(h5.get("runs"), h5py.Group) or not len(h5["runs"]):
                 raise ConfigError(path, "a group /runs with at least one run", f"{', '.join(h5) or 'an empty file'}")
-            return {name: _run(group, f"{path}: runs/{name}") for name, group in h5["runs"].items()}
+            found = {name: _run(group, f"{path}: runs/{name}") for name, group in h5["runs"].items()}
+            for name, group in h5["runs"].items() if tell else ():
+                _tell_guesses(name, group.get("channels", {}), tell)
+            return found
     except OSError as error:
         raise ConfigError(path, "a whole HDF5 file", str(error)) from None
+
+
+def _tell_guesses(run, channels, tell):
+    for name, node in channels.items():
+        guess = read_as(_text(node, "units"), _text(node, "quantity"))
+        if guess:
+            tell(f"{run}, {name}: unit {_text(node, 'units')!r} is read as {guess}")
 
 
 def write_neutral(path, runs):

@@ -190,8 +190,8 @@ def interpolated(columns, time, rate, where):
                           "where times begin anew in one file, state the rows of each run: rows: [0, 100]")
     grid = time[0] + np.arange(int(np.floor((time[-1] - time[0]) * rate + OFF_GRID)) + 1) / rate
     after = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
-    lost = (time[after] - time[after - 1] > GAP / rate) & (np.minimum(time[after] - grid, grid - time[after - 1])
-                                                           > _AT / rate)
+    lost = (time[after] - time[after - 1] > (GAP + EVEN) / rate) & (
+        np.minimum(time[after] - grid, grid - time[after - 1]) > EVEN / rate)
     return {name: np.where(lost, np.nan, np.interp(grid, time, values)) for name, values in columns.items()}, rate
 
 

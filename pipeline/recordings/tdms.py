@@ -1,6 +1,7 @@
 """TDMS files of LabVIEW and its relatives. The door of npTDMS."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -9,20 +10,22 @@ from pipeline.contract.mapped import Growing
 from pipeline.contract.units import in_si
 from pipeline.recordings.samples import EVEN, even_rate
 from pipeline.recordings.survey.meanings import meaning, split_unit
-from pipeline.recordings.waveform import Waveform, held_as, library, stamped
+from pipeline.recordings.tables.layout import spelt
+from pipeline.recordings.waveform import Waveform, held_as, library, stamped, unit_of
 
 _EPOCH = np.datetime64(0, "us")
 #: seconds from 1904, where LabVIEW begins to count, to 1970; a time of so many seconds is counted from one of them
 _LABVIEW, _ABSOLUTE = 2_082_844_800, 5e8
 
 
-def read_tdms(path, folder=None, time=None):
+def read_tdms(path, folder=None, time=None, time_unit=None):
     """{'group/channel': Waveform} of the channels of a TDMS file, scaled as it says.
 
     A channel begins at its wf_start_offset, so many seconds later as its wf_start_time lies behind the earliest one of
     the file. Times are those of its waveform properties, else of the channel of times beside it: the one called
-    ``time``, or one that is called so and rises. ``folder``: for long channels, see ``Growing``. Raises ConfigError for
-    a file that is none, is cut off or damaged, or holds no numbers, and for a ``time`` that is no channel of it.
+    ``time``, or one that is called so and rises; ``time_unit``: unit of such channels, None: as they say, else s.
+    ``folder``: for long channels, see ``Growing``. Raises ConfigError for a file that is none, is cut off or damaged,
+    or holds no numbers, and for a ``time`` that is no channel of it.
     """
     tdms = library("nptdms", "npTDMS", path)
     try:
@@ -30,7 +33,8 @@ def read_tdms(path, folder=None, time=None):
             if file.file_status.incomplete_final_segment:
                 raise ConfigError(path, "a whole TDMS file", "one whose last segment is cut off", "copy it again")
             names = [_name(channel) for group in file.groups() for channel in group.channels()]
-            found = {name: one for group in file.groups() for name, one in _group(group, folder, time).items()}
+            found = {name: one for group in file.groups()
+                     for name, one in _group(group, folder, time, time_unit).items()}
     except BrakechainError:
         raise
     except Exception as error:  # npTDMS passes on whatever its parser stumbles over
@@ -54,10 +58,11 @@ def _name(channel):
     return f"{channel.group_name}/{channel.name}"
 
 
-def _group(group, folder, time):
+def _group(group, folder, time, time_unit):
     """{name: _Found} of the channels of a group, without channels of times that others are read by."""
     channels = [channel for channel in group.channels() if len(channel)]
-    clocks = {_name(channel): clock for channel in channels if (clock := _clock(channel, time)) is not None}
+    clocks = {_name(channel): clock for channel in channels
+              if (clock := _clock(channel, time, time_unit)) is not None}
     found, used = {}, set()
     for k, channel in enumerate(channels):
         name = _name(channel)
@@ -66,9 +71,25 @@ def _group(group, folder, time):
             continue
         beside = [other for other in (*map(_name, reversed(channels[:k])), *map(_name, channels[k:]))
                   if other in clocks and name not in clocks and len(clocks[other][1]) == len(channel)]
-        found[name], by = _read(channel, beside[0] if beside else "", clocks, folder)
+        near = time if time in beside else beside[0] if beside else ""
+        found[name], by = _read(channel, near, clocks, folder)
+        told = _doubt(near, beside, clocks, list(map(_name, channels))) if by and by != time else ""
+        if told:
+            whole = found[name].waveform
+            found[name] = replace(found[name], waveform=replace(whole, remark="; ".join(filter(None, [
+                whole.remark, told]))))
         used.add(by)
     return {name: one for name, one in found.items() if name not in used}
+
+
+def _doubt(near, beside, clocks, order):
+    """What to say of times ``near`` a channel where others are ``beside`` it and the ``order`` of the group does not
+    tell: times stand before the channels that have them."""
+    clear = order[0] in clocks and order[-1] not in clocks and not any(
+        one in clocks and other in clocks for one, other in pairwise(order))
+    others = [] if clear else [other for other in beside if clocks[other][0] != clocks[near][0]
+                               or not np.array_equal(clocks[other][1], clocks[near][1])]
+    return f"its times are those of {near}, not of {others[0]}: time: {others[0]} takes these" if others else ""
 
 
 def _read(channel, near, clocks, folder):
@@ -80,9 +101,10 @@ def _read(channel, near, clocks, folder):
     step, offset, remark = _axis(channel.properties)
     start = _microseconds(channel.properties.get("wf_start_time"))
     if near and not _agree(clocks[near][1], step):
-        first, times = clocks[near]
-        told = f"its times are those of {near}, not of its wf_increment, {step:g} s" if step > 0.0 else ""
-        return _Found(replace(whole, times=times, remark=told), start if first is None else first), near
+        first, times, assumed = clocks[near]
+        told = [f"its times are those of {near}, not of its wf_increment, {step:g} s"] if step > 0.0 else []
+        told += [f"{near} states no unit: its times are read in s; else time_unit: ms"] if assumed else []
+        return _Found(replace(whole, times=times, remark="; ".join(told)), start if first is None else first), near
     return _Found(replace(whole, rate=1.0 / step if step > 0.0 else None, begin=offset, remark=remark), start), ""
 
 
@@ -99,18 +121,20 @@ def _axis(properties):
     return factor * step, factor * offset, ""
 
 
-def _clock(channel, time):
-    """(instant or None, times (sample,) in s from there) of a channel of times; None of any other."""
+def _clock(channel, time, time_unit):
+    """(instant or None, times (sample,) in s from there, whether nothing states their unit) of a channel of times; None
+    of any other."""
     named = _name(channel) == time
     if channel.dtype.kind == "M":
         instants = np.asarray(channel[:], "datetime64[us]").astype(np.int64)
-        return (int(instants[0]), (instants - instants[0]) / 1e6) if (np.diff(instants) >= 0).all() else None
+        return (int(instants[0]), (instants - instants[0]) / 1e6, False) if (np.diff(instants) >= 0).all() else None
     if channel.dtype.kind not in "fiu" or not (named or (meaning(channel.name).measures == "time"
                                                          and channel.name.strip() != "T")):
         return None
-    unit = str(channel.properties.get("unit_string", "")).strip() or split_unit(channel.name)[1] or "s"
+    stated = unit_of(str(channel.properties.get("unit_string", "")).strip()) or split_unit(channel.name)[1]
+    unit = time_unit or stated or "s"
     try:
-        times, found = in_si(np.asarray(channel[:], float), unit, _name(channel))
+        times, found = in_si(np.asarray(channel[:], float), spelt(unit), _name(channel))
     except ConfigError:
         found = ""
     if found != "s" or not np.isfinite(times).all() or (np.diff(times) < 0).any() or not np.ptp(times):
@@ -118,9 +142,9 @@ def _clock(channel, time):
             raise ConfigError(_name(channel), "times that rise, in a unit of time", f"others, in {unit}")
         return None
     if times[0] < _ABSOLUTE:
-        return _microseconds(channel.properties.get("wf_start_time")), times
+        return _microseconds(channel.properties.get("wf_start_time")), times, not (time_unit or stated)
     since_1970 = times[0] - (_LABVIEW if times[0] > _LABVIEW else 0)
-    return round(1e6 * since_1970), times - times[0]
+    return round(1e6 * since_1970), times - times[0], not (time_unit or stated)
 
 
 def _agree(times, step):

@@ -5,7 +5,7 @@ import pint
 import pytest
 
 from pipeline.contract import ConfigError, units
-from pipeline.contract.units import SI, in_si, quotient_in_si, to_si
+from pipeline.contract.units import SI, in_si, makes_other_numbers, quotient_in_si, to_si
 
 #: spelt -> unit: what is read without pint
 PLAIN = {**{f"{prefix}{unit}": unit for unit in ("m", "s", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A")
@@ -111,7 +111,8 @@ def test_units_are_read_as_people_write_them(written, unit, factor):
 
 @pytest.mark.parametrize("unit, factor, name", [
     ("m/s2/N", 1.0, "m/s^2/N"), ("g_0/N", 9.80665, "m/s^2/N"), ("mm/kN", 1e-6, "m/N"), ("(mm/s)/(N)", 1e-3, "m/s/N"),
-    ("m/s^2", 1.0, "m/s^2"), ("(N)/(N m/rad)", 1.0, "rad/m"), ("m/Nm", 1.0, "m/N m"), ("V", 1.0, "V")])
+    ("m/s^2", 1.0, "m/s^2"), ("(N)/(N m/rad)", 1.0, "rad/m"), ("m/Nm", 1.0, "m/N m"), ("V", 1.0, "V"),
+    ("ms^-2/kN", 1e-3, "m/s^2/N"), ("mms-1/N", 1e-3, "m/s/N"), ("N/ms-1", 1.0, "N/m/s"), ("[mm]/N", 1e-3, "m/N")])
 def test_parts_of_a_quotient_keep_their_names(unit, factor, name):
     """An accelerance is no inverse mass to its reader."""
     assert quotient_in_si(3.0, unit, "here") == (pytest.approx(3 * factor), name)
@@ -122,3 +123,11 @@ def test_parts_of_a_quotient_keep_their_names(unit, factor, name):
 def test_what_is_not_finite_or_of_other_digits_is_refused(text, unit):
     with pytest.raises(ConfigError, match="expected a quantity in"):
         to_si(text, unit, "x")
+
+
+@pytest.mark.parametrize("one, other, measures, told", [
+    ("kN", "N", "force", True), ("m/s2", "m/s^2", "acceleration", False), ("G", "g", "acceleration", False),
+    ("degC", "K", "temperature", True), ("kg", "kgf", "force", False), ("EU", "N", "force", False),
+    ("mm", "kN", "force", True), ("bar(g)", "bar", "pressure", False)])
+def test_units_that_make_other_numbers(one, other, measures, told):
+    assert makes_other_numbers(one, other, measures) == told

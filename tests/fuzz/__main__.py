@@ -39,7 +39,7 @@ def main():
             until = time.monotonic() + max((end - time.monotonic()) / left, _LEAST)
             row, failed = _tried(targets[name], options.seed, ledger.next_number(name, options.seed), until)
             rows, failures = [*rows, row], [*failures, *failed]
-            print(f"{name:<10} {row.tried:>7} tried, {row.failed} failed", flush=True)
+            print(f"{name:<14} {row.tried:>7} tried, {row.failed} failed", flush=True)
         tempfile.tempdir = None
     print("\n" + "\n".join(ledger.table(rows)))
     ledger.append(rows)

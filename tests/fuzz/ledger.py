@@ -62,7 +62,8 @@ def table(rows):
         *(sum(int(line[k]) for line in lines) for k in range(1, len(head) - 1)),
         f"{max((row.slowest for row in rows), default=0.0):.1f}",
     ]
-    return ["  ".join(f"{cell!s:>9}" for cell in line) for line in (head, *lines, total)]
+    return ["  ".join(f"{cell!s:>{14 if k == 0 else 9}}" for k, cell in enumerate(line)) for line in
+            (head, *lines, total)]
 
 
 def next_number(target, seed):

@@ -27,7 +27,7 @@ def test_the_table_sums_up():
     lines = ledger.table(
         [Row("table", 1, 0, Counter(read=3, refused=2), 1), Row("mdf", 1, 0, Counter(read=1, hang=1), 0, 2.0)]
     )
-    assert lines[-1].split()[:4] == ["all", "7", "4", "2"] and lines[-1].split()[-1] == "2.0"
+    assert lines[-1].split()[:5] == ["all", "7", "4", "0", "2"] and lines[-1].split()[-1] == "2.0"
     assert Row("mdf", 1, 0, Counter(read=1, hang=1)).failed == 1
 
 

@@ -16,18 +16,22 @@ from pipeline.contract.errors import LONGEST, BrakechainError
 from pipeline.contract.received import process
 from tests import readers
 
-#: read: as it should be; refused: one sentence; contained: one sentence about what the process of a reader stumbled
-#: over or did not survive. Failures: internal error; wrong numbers, or damage not noticed; rejected, although right; no
-#: answer in time; death of the process
-GOOD, BAD = ("read", "refused", "contained"), ("internal", "wrong", "rejected", "hang", "crash")
+#: read: as it should be; told: otherwise, and a remark says what was assumed or left out; refused: one sentence;
+#: contained: one sentence about what the process of a reader stumbled over or did not survive. Failures: internal
+#: error; wrong numbers, or damage not noticed; rejected, although right; no answer in time; death of the process
+GOOD, BAD = ("read", "told", "refused", "contained"), ("internal", "wrong", "rejected", "hang", "crash")
+
+
+class Told(str):
+    """What is otherwise than it truly is, and told: the answer of a check that is no failure."""
 
 
 @dataclass(frozen=True)
 class Trial:
     """One input: ``content`` of a file called ``name``, ``given`` to its reader.
 
-    ``how``: what was changed; ``check(value)``: '' where what was read is right, else what is wrong; ``must``: whether
-    it must be read, must be refused, or may be either.
+    ``how``: what was changed; ``check(value)``: '' where what was read is right, else what is wrong, Told where a
+    remark says so; ``must``: whether it must be read, must be refused, or may be either.
     """
 
     name: str
@@ -82,7 +86,7 @@ def outcome(target, trial, folder):
     try:
         value = target.read(path, **trial.given)
         said = "read, although damaged" if trial.must == "refuse" else trial.check(value) if trial.check else ""
-        kind = "wrong" if said else "read"
+        kind = "told" if isinstance(said, Told) else "wrong" if said else "read"
     except BrakechainError as error:
         kind, said = _judged(error, trial)
     except (Exception, SystemExit) as error:

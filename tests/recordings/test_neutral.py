@@ -96,3 +96,14 @@ def test_friction_and_faces_survive_writing(tmp_path):
     np.testing.assert_array_equal(run.topography["worn"].height, heights)
     assert str(run.topography["worn"].body) == "pad" and run.topography["worn"].x.tolist() == [0, 2e-6, 4e-6]
     assert run.friction["cell"].pressure.tolist() == [1e6, 1e6] and run.friction["cell"].distance[1] == 1e-3
+
+
+def test_what_a_unit_is_taken_for_is_told(tmp_path):
+    with h5py.File(tmp_path / "a.h5", "w") as h5:
+        for name, unit, quantity in (("pad", "G", "acceleration"), ("load", "kg", "force"),
+                                     ("line", "bar", "pressure")):
+            node = h5.create_dataset(f"runs/stop/channels/{name}", data=[1.0, 2.0])
+            node.attrs.update(units=unit, quantity=quantity, sample_rate=10.0)
+    told = []
+    read_neutral(tmp_path / "a.h5", told.append)
+    assert told == ["stop, load: unit 'kg' is read as 9.80665 N", "stop, pad: unit 'G' is read as 9.80665 m/s^2"]

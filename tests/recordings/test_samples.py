@@ -55,6 +55,14 @@ def test_neighbouring_stretches_share_no_sample():
         stretch(whole, 5.0, 6.0, "a")
 
 
+@pytest.mark.parametrize("lost", [2, 3])
+def test_gaps_are_counted_in_whole_intervals_however_times_are_rounded(lost):
+    """Two lost samples are joined, three are missing, and those beside them are not."""
+    time = np.round(np.delete(np.arange(40) / 2048, slice(10, 10 + lost)), 6)
+    spread, _ = interpolated({"x": 3 * time}, time, 2048.0, "a")
+    assert np.flatnonzero(np.isnan(spread["x"])).tolist() == ([] if lost == 2 else [10, 11, 12])
+
+
 def test_straight_lines_join_uneven_samples():
     time = np.array([0.0, 0.012, 0.019, 0.031, 0.04])
     spread, rate = interpolated({"x": 3 * time}, time, 100.0, "a")

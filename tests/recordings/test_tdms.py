@@ -130,3 +130,15 @@ def test_the_unit_of_the_axis_counts(tmp_path):
         for unit in ("ms", "s", "Hz"))))
     assert [(w.rate, w.begin) for w in found.values()] == [(2000.0, 0.01), (2.0, 10.0), (None, 0.0)]
     assert "no signal over time" in found["g/Hz"].remark
+
+
+@pytest.mark.parametrize("order", ["t_1 t_2 a", "a t_1 t_2", "a t_1 b t_2"])
+def test_of_several_channels_of_times_the_one_that_is_taken_is_told_and_stated(tmp_path, order):
+    times = {"t_1": np.arange(20.0), "t_2": 5 + np.arange(20.0) / 4}
+    path = written(tmp_path / "a.tdms", *((name, times.get(name, np.zeros(20)), {}) for name in order.split()))
+    found = read_tdms(path)["g/a"]
+    taken, other = ("t_1", "t_2") if found.rate == 1.0 else ("t_2", "t_1")
+    assert f"its times are those of g/{taken}, not of g/{other}: time: g/{other} takes these" in found.remark
+    for name, clock in (("t_1", (1.0, 0.0)), ("t_2", (4.0, 5.0))):
+        stated = read_tdms(path, time=f"g/{name}")["g/a"]
+        assert (stated.rate, stated.begin) == clock and "takes these" not in stated.remark

@@ -439,3 +439,33 @@ def test_channels_that_are_held_at_the_end_of_their_range_are_told(tmp_path):
     _, told = told_by(tmp_path, files=[{"kind": "audio", "file": "stop.flac", "columns": columns}])
     assert [line.split(":")[0] for line in told if "overloaded" in line] == ["stop, near"]
     assert any("44 % of the samples stand at the end of the range, 20 Pa" in line for line in told)
+
+
+def table_of(folder, text, **more):
+    """(the recording of a text table of a force, what was told) at 1 kHz."""
+    (folder / "a.csv").write_text(text + "".join(f"{k},{k % 7 + 0.5}\n" for k in range(100)))
+    return told_by(folder, files=[{"kind": "table", "file": "a.csv", "runs": {"a": {}}, "columns": {
+        "load": {"column": text.splitlines()[-1].split(",")[1], "unit": "N", "measures": "force"}}, **more}])
+
+
+@pytest.mark.parametrize("head, more, said", [
+    ("t [ms],x [kN]\n", {"time": "t [ms]"}, "load: the file says 'kN', the case 'N', which is taken"),
+    ("t [ms],x [mm]\n", {"time": "t [ms]"}, "load: the file says 'mm', the case 'N', which is taken"),
+    ("t [ms],x [N]\n", {"time": "t [ms]"}, ""),
+    ("Sample rate: 500 Hz\nt [ms],x\n", {"time": "t [ms]"}, "states 500 Hz, the times t [ms] 1000 Hz, which is taken"),
+    ("Sample rate: 500 Hz\nt [ms],x\n", {"sample_rate": "1 kHz"}, "states 500 Hz, the case 1000 Hz, which is taken"),
+    ("t,x\n", {"time": "t", "sample_rate": "1 kHz"}, ""),                        # the rate tells the unit of the times
+    ("t,x\n", {"time": "t", "resample": "2 Hz"}, "t states no unit: read in s; else time_unit: ms")])
+def test_what_a_table_and_its_case_contradict_is_told(tmp_path, head, more, said):
+    found, told = table_of(tmp_path, head, **more)
+    load = found.runs["a"].channels["load"]
+    assert (len(told) == 1 and said in told[0]) if said else not told
+    assert load.samples.max() == pytest.approx(6.5) and ("resample" in more or float(load.rate) == 1000)
+
+
+@pytest.mark.parametrize("more, told", [
+    ({"sample_rate": "2 kHz"}, "sample_rate: expected times at 2000 Hz, found times that are 2 intervals or more"),
+    ({"resample": "10 kHz"}, "resample: expected times at 10000 Hz, found times that are 10 intervals or more")])
+def test_a_rate_that_is_not_that_of_the_times_makes_no_gaps(tmp_path, more, told):
+    with pytest.raises(ConfigError, match=f"{told}.*: 1000 Hz, or the unit of the times"):
+        table_of(tmp_path, "t [ms],x\n", time="t [ms]", **more)

@@ -168,11 +168,13 @@ def test_a_sign_that_does_not_show_is_told():
     assert "does not show" in str(responses(file=measured(rows, np.arange(500.0)))["file"].remark[0])
 
 
-@pytest.mark.parametrize("settings", [{"window_decay": "12 1/s"}, {"window_end": float(np.exp(-12.0 * 2.0))}])
-def test_the_window_of_given_responses_is_taken_off_the_damping(settings):
-    """A front end of two seconds under exp(-12 t): spectra of the weighed records, as a file gives them."""
-    force, motion = hammered([0.0], 2.0, 4)
-    weight = np.exp(-12.0 * np.arange(len(force)) / RATE)
+@pytest.mark.parametrize("decay, seconds, settings", [
+    (12.0, 2.0, {"window_decay": "12 1/s"}), (12.0, 2.0, {"window_end": float(np.exp(-12.0 * 2.0))}),
+    (25.0, 1.0, {"window_decay": "25 1/s"}), (20.0, 1.0, {"window_end": float(np.exp(-20.0))})])
+def test_the_window_of_given_responses_is_taken_off_the_damping(decay, seconds, settings):
+    """A front end of one or two seconds under exp(-c t): spectra of the weighed records, as a file gives them."""
+    force, motion = hammered([0.0], seconds, 4)
+    weight = np.exp(-decay * np.arange(len(force)) / RATE)
     rows, line = np.fft.rfft(motion * weight) / np.fft.rfft(force * weight), np.fft.rfftfreq(len(force), 1 / RATE)
     band = line < 2e3
 
@@ -183,6 +185,6 @@ def test_the_window_of_given_responses_is_taken_off_the_damping(settings):
 
     right, wrong = modes(settings), modes({})
     np.testing.assert_allclose(right.damping_ratio, DAMPING, rtol=0.02)
-    np.testing.assert_allclose(wrong.damping_ratio - right.damping_ratio, 12.0 / (2 * np.pi * FREQUENCY), rtol=0.02)
+    np.testing.assert_allclose(wrong.damping_ratio - right.damping_ratio, decay / (2 * np.pi * FREQUENCY), rtol=0.02)
     with pytest.raises(ConfigError, match="decay rates above that of the window, 100 1/s"):
         modes({"window_decay": "100 1/s"})

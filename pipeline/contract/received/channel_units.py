@@ -31,9 +31,11 @@ _UNITS = (
     ("N", "N", "n u m c d da k M", "newton newtons"), ("kgf", "kgf kp", "", "kilopond kiloponds"), ("gf", "gf", "", ""),
     ("lbf", "lbf", "k", "lbsf"), ("kip", "kip", "", "kips"), ("ozf", "ozf", "", ""), ("dyn", "dyn", "", "dyne dynes"),
     ("N*m", "Nm", "n u m c d da k M", "newtonmeter newtonmeters newtonmetre newtonmetres"), ("N*mm", "Nmm", "k M", ""),
+    ("N*cm", "Ncm", "", ""),
     ("kgf*m", "kgfm kpm", "", ""), ("lbf*ft", "", "", "lbft ftlb ftlbs lbfft ftlbf"),
     ("lbf*inch", "", "", "lbin inlb inlbs lbfin inlbf"), ("ozf*inch", "", "", "ozin inoz"),
-    ("Pa", "Pa", "n u m h k M G", "pascal pascals"), ("bar", "bar", "u m k", "bars"), ("psi", "psi", "k", "ksi"),
+    ("Pa", "Pa", "n u m h k M G", "pascal pascals"), ("bar", "bar", "u m k", "bars"),
+    ("psi", "psi", "k", ""), ("kpsi", "ksi", "", ""),
     ("atm", "atm", "", ""), ("torr", "Torr", "m", ""), ("mmHg", "mmHg", "", ""), ("inHg", "inHg", "", ""),
     ("rad", "rad", "n u m", "radian radians"), ("deg", "deg ° arcdeg", "m", "degree degrees degs"),
     ("arcmin", "arcmin", "", ""), ("arcsec", "arcsec", "", ""),
@@ -129,15 +131,16 @@ def readings(label, response=False):
     if len(label) > LONGEST:
         raise NoUnitError(f"a unit of {len(label)} characters")
     text = plain(label)
-    whole = _WHOLE.get(re.sub(r"\s*([/^-])\s*", r"\1", text))
+    whole = _whole(text)
     if whole:
         return [Reading(*whole)]
     if text in _TEMPERATURES:
         return [Reading(_TEMPERATURES[text], True)]
     if _SPANS.fullmatch(text):
         raise NoUnitError("values from peak to peak are no samples")
+    text, known = _with_whole(text) if response else (text, False)
     bare, guess = _unqualified(text)
-    tokens = _tokens(bare)
+    guess, tokens = guess or known, _tokens(bare)
     found, seen = [], set()
     for below in (False, True):
         parts = _product(tokens, below)
@@ -149,6 +152,23 @@ def readings(label, response=False):
                 seen.add(spelt)
                 found.append(Reading(spelt, guessed or below or change in (_FORCES, _BOTH)))
     return found
+
+
+def _whole(text):
+    """What _WHOLE says of a label in plain characters, None where it does not hold it."""
+    return _WHOLE.get(re.sub(r"\s*([/^-])\s*", r"\1", text))
+
+
+def _with_whole(text):
+    """(label of a response per reference, both in plain characters and with what _WHOLE says of them, whether that is a
+    guess): ms-2/N is no 1/ms^2/N."""
+    above, _, below = text.rpartition("/")
+    parts = [plain(part) for part in (above, below)]
+    known = [_whole(part) if part else None for part in parts]
+    if not above or not (any(known) or parts != [above, below]):
+        return text, False
+    spelt = [f"({one[0] or 1})" if one else f"({part})" for part, one in zip(parts, known, strict=True)]
+    return "/".join(spelt), any(one[1] for one in known if one)
 
 
 def only_of(label):
@@ -167,11 +187,17 @@ def plain(label):
     for twice, once in _TWICE.items():
         label = label.replace(twice, once)
     text = unicodedata.normalize("NFKC", label.translate(_LIKE)).translate(_LIKE).strip()
-    if text[:1] + text[-1:] in ("[]", "()", "<>") and not set("[]()<>") & set(text[1:-1]):
+    if text[:1] + text[-1:] in ("[]", "()", "<>") and _balanced(text[1:-1]):
         text = text[1:-1].strip()
     text = re.sub(r"\s+per\s+", "/", text, flags=re.IGNORECASE)
     text = re.sub(r"\.(?=\s*(?:$|[/*)^-]))", "", text)
     return _DEGREES.sub(lambda match: f"deg{match[1][0].upper()}", text)
+
+
+def _balanced(text):
+    """Whether every parenthesis of a text has its other one behind it, and there are no other brackets."""
+    bare = re.sub(r"\([^()]*\)", "", text)
+    return not set("[]()<>") & set(bare) and not set("[]<>") & set(text)
 
 
 def _unqualified(text):

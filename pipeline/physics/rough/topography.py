@@ -21,6 +21,8 @@ from pipeline.physics.rough.prescribed.heights import moments
 
 #: formats of text
 _TEXT = ("asc", "xyz", "matrix")
+#: a format of elevations that has no head: any file of 2 n^2 bytes, also of text, is taken for one
+_BY_SIZE = "hgt"
 _LIKELY = re.compile(r"topo|height|z\b", re.IGNORECASE)
 #: median absolute deviation to standard deviation of Gaussian scatter
 MAD_TO_RMS = 1.4826
@@ -141,6 +143,8 @@ def _open(path, where, name):
     remedy = "check the file; 'SurfaceTopography' lists the formats it reads"
     try:
         reader = open_topography(str(path))
+        if reader.format() == _BY_SIZE and not str(path).lower().endswith(_BY_SIZE):
+            raise CannotDetectFileFormat
         channel, told = _channel(reader, name, where)
         if channel.unit is None or channel.physical_sizes is None:
             raise UnscaledScan(where, "a map with its length unit", "no unit or no size", "state pixel_size and"

@@ -14,6 +14,8 @@ from pipeline.recordings.waveform import self_told, unit_of
 
 #: kinds of a calibrator's file by its suffix; any other is sound
 _KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
+#: how far a stated rate may be from that of the file
+_ALIKE = 1e-6
 
 
 def channels_of(file, imported, track):
@@ -23,9 +25,11 @@ def channels_of(file, imported, track):
     channel. Raises ConfigError for columns that the file does not hold, and where no channel can be used.
     """
     where = f"{file.file}"
-    if file.time and file.kind != "tdms":
-        raise ConfigError(f"{where}: time", "no channel of times: files of this kind have their own", repr(file.time))
-    found = waveforms(file.kind, file.file, **({"time": file.time} if file.time else {}))
+    clock = {name: value for name in ("time", "time_unit") if (value := getattr(file, name))}
+    if clock and file.kind != "tdms":
+        raise ConfigError(f"{where}: {next(iter(clock))}", "no channel of times: files of this kind have their own",
+                          repr(next(iter(clock.values()))))
+    found = waveforms(file.kind, file.file, **clock)
     for name, wanted in file.columns.items():
         if wanted.column not in found:
             raise ConfigError(f"{where}: {name}.column", f"one of {', '.join(found)}", repr(wanted.column))
@@ -41,6 +45,9 @@ def channels_of(file, imported, track):
             raise ConfigError(f"{where}: {name}", "samples", f"none: {even.remark}")
         if even.remark:
             told[even.remark].append(name)
+        if file.sample_rate and waveform.rate and abs(waveform.rate / file.sample_rate - 1.0) > _ALIKE:
+            told[f"the file states {waveform.rate:.6g} Hz, which is taken: sample_rate is that of channels without a"
+                 " rate"].append(name)
         line = f"add columns: {{{name}: {{unit: ...}}}}" if file.columns else f"add units: {{{name}: ...}}"
         return _channel(one, even, f"{where}: {name}", line, imported)
 

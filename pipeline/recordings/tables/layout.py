@@ -15,7 +15,7 @@ from pipeline.recordings.survey.meanings import split_unit
 _SHOWN, _ROWS, _FOOTER = 60, 4, 5
 #: what stands before names in lines of comments, and the line with which Excel states the delimiter
 _COMMENT, _EXCEL = re.compile(r"\s*(#+|%+|//|!)\s*"), re.compile(r'"?sep=(.)"?')
-_BRACKETED = re.compile(r"[\[(]([^\])]*)[\])]")
+_BRACKETED = re.compile(r"\[([^\]]*)\]|\(((?:[^()]|\([^()]*\))*)\)")
 _NAME = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
 #: words for units of which the symbols are read
 _SPELT = {"second": "s", "seconds": "s", "sec": "s", "sekunde": "s", "sekunden": "s", "millisecond": "ms",
@@ -49,7 +49,8 @@ class Form(Section):
 class Layout:
     """``names`` and ``units`` {name: unit} of the columns, their ``positions``; ``first`` and ``last``: numbers of the
     lines, counted from 0, with the first numbers and behind the last ones; ``rate`` in Hz as the head states it, or
-    None; ``remarks``; ``shown``: how the lines are understood; ``repeated`` {name: as written} of those numbered."""
+    None; ``remarks``; ``shown``: how the lines are understood; ``repeated`` {name: as written} of those numbered;
+    ``begin`` in s of what has no times."""
 
     delimiter: str
     decimal: str
@@ -62,6 +63,7 @@ class Layout:
     remarks: list
     shown: str
     repeated: dict = field(default_factory=dict)
+    begin: float = 0.0
 
 
 def layout(lines, path, form, encoding):
@@ -199,7 +201,8 @@ class _Head:
         if self.delimiter in "\t ":
             ways += [re.split(r"\s{2,}|\t", line.strip()), _NAME.findall(line), line.split()]
         if width == 1:
-            return [line.strip()] if all(len(texts) == 1 for texts in ways[:4]) or "[" in line else None
+            single = all(len(texts) == 1 for texts in ways[:4])
+            return ways[0] if single else [line.strip()] if "[" in line else None
         for texts in ways:
             while len(texts) > width and not texts[-1]:
                 texts = texts[:-1]
@@ -275,7 +278,7 @@ class _Head:
 def _unit(text):
     """The unit in a text of a row of units, as it is read."""
     inside = _BRACKETED.fullmatch(text)
-    text = (inside[1] if inside else text).strip()
+    text = (inside[1] or inside[2] or "" if inside else text).strip()
     return "" if text in _NO_UNIT or text.lower().rstrip(":") in _LABELS else spelt(text)
 
 

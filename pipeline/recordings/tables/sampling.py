@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
-from pipeline.recordings.samples import even_times, interpolated, on_grid
+from pipeline.recordings.samples import EVEN, GAP, OFF_GRID, even_times, interpolated, on_grid
 from pipeline.recordings.survey.meanings import split_unit
 from pipeline.recordings.tables.layout import spelt
 
@@ -28,15 +28,13 @@ def sampled(values, time, file, head, where, tell, measures=()):
         rate = file.sample_rate or head[1]
         if file.sample_rate is None and head[1] is not None:
             tell(f"{where}: a sampling rate of {head[1]:.6g} Hz, as the file says; else sample_rate: RATE")
+        _contradicted(rate, head[1], "the case", where, tell)
         return values, rate, head[2] if file.sample_rate is None else 0.0
     values, time = _without_end(values, time)
-    unit, assumed = time_unit(file.time, file.time_unit, head, time, f"{where}_unit")
+    unit, assumed = time_unit(file.time, file.time_unit, (head[0], file.sample_rate or head[1]), time, f"{where}_unit")
     time = np.asarray(in_si(time, unit, f"{where}_unit")[0]) if unit != "s" else time
-    if file.resample is not None:
-        return *interpolated(values, time, file.resample, where), float(time[0])
-    if file.sample_rate is not None:
-        spread, begin = on_grid(values, time, file.sample_rate, where)
-        return spread, file.sample_rate, begin
+    if file.resample is not None or file.sample_rate is not None:
+        return _on_stated(values, time, file, unit if assumed else "", where, tell)
     even = even_times(time, where, head[1])
     if assumed:
         _refuse_slow(even.rate, measures, where)
@@ -45,7 +43,47 @@ def sampled(values, time, file, head, where, tell, measures=()):
         spread = 0.5 * (even.highest - even.lowest)
         tell(f"{where}: times are rounded to {even.step:.3g} s: read as an even grid of {even.rate:.8g} Hz, which they"
              f" tell to {spread:.1g} Hz; else sample_rate: RATE")
+    _contradicted(even.rate, head[1], f"the times {file.time}", where, tell)
     return values, even.rate, even.begin
+
+
+def _on_stated(values, time, file, assumed, where, tell):
+    """(columns, rate, begin) on a grid of the rate that the case states; ``assumed``: unit of times that nothing
+    states."""
+    if assumed:
+        tell(f"{where}: {file.time} states no unit: read in {assumed}; else time_unit: ms")
+    rate, count = file.resample or file.sample_rate, len(time)
+    _refuse_other_rate(time, file, where)
+    if file.resample is not None:
+        spread, _ = interpolated(values, time, rate, where)
+        lost, why = max((int(np.isnan(v).sum()) for v in spread.values()), default=0), "or were missing in the file"
+        if lost:
+            tell(f"{where}: up to {lost} of {len(next(iter(spread.values())))} samples are missing, as times lie more"
+                 f" than {GAP} intervals of {rate:.6g} Hz apart, {why}")
+        return spread, rate, float(time[0])
+    spread, begin = on_grid(values, time, rate, where)
+    whole = len(next(iter(spread.values()), time))
+    if whole > count:
+        tell(f"{where}: {whole - count} of {whole} samples are missing: there are no times of them at {rate:.6g} Hz")
+    return spread, rate, begin
+
+
+def _refuse_other_rate(time, file, where):
+    """ConfigError for times of which no two neighbours are one interval of the stated rate apart, or not half of them
+    near enough to be joined."""
+    rate, usual = file.resample or file.sample_rate, float(np.median(np.diff(time))) if len(time) > 1 else 0.0
+    nearest = usual * rate if file.resample is not None else np.min(np.diff(time), initial=np.inf) * rate
+    if usual > 0 and nearest > (GAP + EVEN if file.resample is not None else 2.0 - OFF_GRID):
+        name = "sample_rate" if file.resample is None else "resample"
+        raise ConfigError(f"{where[:where.rfind(': ') + 2]}{name}", f"times at {rate:.6g} Hz", f"times that are"
+                          f" {nearest:.6g} intervals or more apart",
+                          f"state {name}: {1.0 / usual:.6g} Hz, or the unit of the times, time_unit: ms")
+
+
+def _contradicted(rate, stated, by, where, tell):
+    """Tells where the head of a file states another rate than what is taken."""
+    if stated is not None and abs(rate / stated - 1.0) > _NEAR:
+        tell(f"{where}: the head of the file states {stated:.6g} Hz, {by} {rate:.6g} Hz, which is taken")
 
 
 def time_unit(name, stated, head, time, where):

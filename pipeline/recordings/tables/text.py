@@ -11,6 +11,9 @@ from pipeline.contract.received.plain_text import cells, decoded, lines_of, numb
 from pipeline.recordings.tables.labview import BEGINS, measurement
 from pipeline.recordings.tables.layout import REMEDY, Form, layout
 
+#: rows in which the decimal mark is looked for
+_LOOKED = 10_000
+
 
 @dataclass(frozen=True)
 class TextTable:
@@ -40,6 +43,21 @@ class TextTable:
                 raise self.flaws[name]
             if name not in self.columns:
                 raise ConfigError(where, f"one of {', '.join(self.columns)}", repr(name), self._instead(name))
+
+    def on_clock(self, wanted, time):
+        """Refuse columns ``wanted`` {where: name} that stand behind another column of times than ``time``, of those of
+        one name that differ (ConfigError)."""
+        names = list(self.columns)
+        plain = re.sub(r" \(\d+\)$", "", time or "")
+        clocks = [name for name in names if re.fullmatch(re.escape(plain) + r" \(\d+\)", name)]
+        if time not in clocks or clocks[0] != names[0]:
+            return
+        for where, name in wanted.items():
+            clock = [other for other in clocks if names.index(other) < names.index(name)][-1:]
+            if clock and clock[0] != time:
+                raise ConfigError(where, f"a column behind {time!r}, whose times it has", f"{name!r}, which stands"
+                                  f" behind {clock[0]!r}", "list the file once more, with offset: 0 s and time:"
+                                  f" {clock[0]!r}")
 
     def _instead(self, name):
         parts = [column for column in self.columns if re.fullmatch(re.escape(name) + r"\(:?\d*,:?\d*\)", column)]
@@ -72,6 +90,8 @@ def text_table(path, form=None):
     else:
         head = layout(lines, path, form, encoding)
         rows = _rows(lines, head, path, form)
+        if form.decimal is None:
+            head.remarks.extend(_ambiguous(rows, head.decimal))
     table = _table(head, rows, path)
     filled = [line for line in lines if line.strip()]
     if not text.endswith(("\n", "\r")) and len(filled) > 2 and _shorter(filled, head.delimiter):
@@ -93,6 +113,16 @@ def _rows(lines, head, path, form):
     return rows
 
 
+def _ambiguous(rows, decimal):
+    """[What to say] of rows whose numbers show nowhere whether ``decimal`` is one, or sets thousands apart."""
+    group = re.compile(rf"[-+]?[1-9]\d{{0,2}}{re.escape(decimal)}\d{{3}}")
+    marked = [text for _, texts in rows[:_LOOKED] for text in texts if decimal in text]
+    if not marked or not all(map(group.fullmatch, marked)):
+        return []
+    return [f"numbers such as {marked[0]} are read with the decimal mark {decimal!r}, which nothing else shows: state"
+            f" decimal: {decimal!r}; where it sets thousands apart, save them without"]
+
+
 def _table(head, rows, path):
     """TextTable of rows of texts."""
     columns, units, flaws, remarks = {}, dict(head.units), {}, list(head.remarks)
@@ -109,7 +139,8 @@ def _table(head, rows, path):
             remarks.append(f"{name} holds time stamps: seconds from {texts[0][1]} on")
             values, units[name] = seconds, "s"
         columns[name] = np.array(values, float)
-    return TextTable(*_merged(columns, units, head.repeated), head.rate, flaws, remarks, head.shown)
+    return TextTable(*_merged(columns, units, head.repeated), head.rate, flaws, remarks, head.shown,
+                     head.begin)
 
 
 def _merged(columns, units, repeated):

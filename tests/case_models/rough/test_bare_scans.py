@@ -130,3 +130,11 @@ def test_a_file_with_its_size_needs_no_pixels(tmp_path):
     the_map(read(tmp_path / "a.txt"))
     with pytest.raises(ConfigError, match="pixel_size: expected none, as the file states its size: pixels of 5e-07 m"):
         read(tmp_path / "a.txt", **PIXELS)
+
+
+def test_text_of_as_many_bytes_as_a_map_of_elevations_is_text(tmp_path):
+    """Files of elevations (hgt) have no head: any file of 2 n^2 bytes may be one."""
+    content = text(HEIGHTS)
+    side = int(np.ceil(np.sqrt(len(content) / 2)))
+    (tmp_path / "a.txt").write_text(content + "\n" * (2 * side**2 - len(content)))
+    the_map(read(tmp_path / "a.txt", **PIXELS))

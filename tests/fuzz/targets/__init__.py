@@ -10,7 +10,8 @@ from pipeline.contract.units import to_si
 #: what readers load at their first file: once in the parent, and not in every child
 _LOADED = ("asammdf", "meshio", "nptdms", "pint", "pyuff", "scipy.io", "scipy.ndimage", "scipy.sparse.csgraph",
            "scipy.spatial", "soundfile", "SurfaceTopography", "pipeline.physics.fem.reference_cells")
-_FILES = ("tables", "vectors", "bench_files", "models", "cases", "products", "trial_sets")
+_FILES = ("tables", "vectors", "bench_files", "models", "cases", "products", "trial_sets",
+          "meanings")
 
 
 @cache

@@ -62,3 +62,16 @@ def test_a_pole_that_stands_for_nothing_is_told_by_its_residue_and_stops_nothing
     spurious = int(np.argmin(strength))
     assert strength[spurious] < 4.0 < np.delete(strength, spurious).min()
     assert np.all(np.delete(fit.away, spurious) < 0.3)
+
+
+@pytest.mark.parametrize("split, damping, lines, kind, share", [
+    (1.5e-3, 1e-3, 0.25, 0, 0.02), (2e-3, 5e-4, 0.5, 1, 0.005), (1e-3, 1e-3, 1.0, 2, 0.01)])
+def test_discs_of_other_makes_settle(split, damping, lines, kind, share):
+    """Receptances, mobilities and accelerances, in steps of a quarter to one hertz: every mode of a close pair."""
+    frequency, ratio, shape = disc(split, damping)
+    line = np.arange(1150.0, 1750.1, lines)
+    made = proportional(responses(line, frequency, ratio, shape, kind), share, np.random.default_rng(3))
+    found = identify(line, made)
+    assert len(found.pole) == len(frequency) and np.all(found.away < 0.3)
+    true = np.sort(2 * np.pi * frequency * np.sqrt(1 - ratio**2))
+    assert np.all(abs(found.pole.imag - true) < 5 * found.std[:, 1])

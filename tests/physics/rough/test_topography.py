@@ -1,6 +1,7 @@
 """Reading, cleaning and describing scans; bad files end in one clear error."""
 
 import os
+import re
 import struct
 from pathlib import Path
 
@@ -187,3 +188,16 @@ def test_the_only_channel_of_heights_is_taken_and_equal_names_are_numbered(tmp_p
     assert read_scan(gwyddion(tmp_path / "b.gwy", [("Z", rough, "m")])).told == ""
     twice = gwyddion(tmp_path / "c.gwy", [("Height", rough, "m"), ("Height", 2 * rough, "m")])
     np.testing.assert_allclose(read_scan(twice, "Height (2)").heights, 2 * rough, atol=1e-14)
+
+
+@pytest.mark.parametrize("names, wanted, place", [
+    (("Height Trace", "Height Retrace"), "Height Retrace", 1), (("Z Axis", "Z Sensor", "Phase"), "Z Sensor", 1),
+    (("Amplitude", "Topo", "Topo", "Intensity"), "Topo (3)", 2)])
+def test_channels_of_other_instruments_are_asked_for_too(tmp_path, rough, names, wanted, place):
+    """Scanning probes save each line twice or by two sensors, optical ones several results of one measurement."""
+    units = {"Phase": "deg", "Intensity": "V"}
+    channels = [(name, (k + 1) * rough, units.get(name, "m")) for k, name in enumerate(names)]
+    file = gwyddion(tmp_path / "a.gwy", channels)
+    with pytest.raises(ConfigError, match=f"one channel of heights, found [23]: .*{re.escape(wanted)}.*; state which"):
+        read_scan(file)
+    np.testing.assert_allclose(read_scan(file, wanted).heights, (place + 1) * rough, atol=1e-14)

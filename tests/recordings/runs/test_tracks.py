@@ -79,3 +79,35 @@ def test_long_channels_of_a_bus_are_those_of_memory(tmp_path, monkeypatch):
     for one in channels.values():
         instants = float(one.begin) + np.arange(len(one.samples)) / float(one.rate)
         np.testing.assert_allclose(one.samples, 1e5 * np.sin(instants), atol=20.0)
+
+
+def times_in(path, unit="", name="Time"):
+    """A TDMS file of 10 kHz from 0.5 s on, by a channel of times in ms."""
+    from nptdms import ChannelObject, TdmsWriter
+
+    with TdmsWriter(str(path)) as writer:
+        writer.write_segment([
+            ChannelObject("log", one, values, properties={"unit_string": label})
+            for one, values, label in ((name, 500.0 + np.arange(200) / 10, unit), ("line", SINE[:200], "bar"))])
+    return path
+
+
+def test_times_without_a_unit_are_told_and_the_case_states_it(tmp_path):
+    channels, _, told = made(times_in(tmp_path / "a.tdms"), "tdms")
+    assert float(channels["log_line"].rate) == pytest.approx(10) and len(told) == 1
+    assert "log_line: log/Time states no unit: its times are read in s; else time_unit: ms" in told[0]
+    for path, more in ((tmp_path / "a.tdms", {"time_unit": "ms"}), (times_in(tmp_path / "b.tdms", "ms"), {}),
+                       (times_in(tmp_path / "c.tdms", "", "Time [ms]"), {}),
+                       (times_in(tmp_path / "d.tdms", "milliseconds"), {})):
+        channels, _, told = made(path, "tdms", **more)
+        line = channels["log_line"]
+        assert (float(line.rate), float(line.begin)) == (pytest.approx(1e4), 0.5) and not told
+    with pytest.raises(ConfigError, match="time_unit: expected no channel of times"):
+        made(mdf(tmp_path / "a.mf4"), "mdf", time_unit="ms")
+
+
+@pytest.mark.parametrize("rate, told", [(1000.0, True), (RATE, False)])
+def test_a_rate_of_the_case_that_the_file_contradicts_is_told(tmp_path, rate, told):
+    channels, _, said = made(tdms(tmp_path / "a.tdms"), "tdms", sample_rate=f"{rate} Hz")
+    assert float(channels["bench_pad"].rate) == pytest.approx(RATE)
+    assert any("bench_pad: the file states 51200 Hz, which is taken" in line for line in said) == told

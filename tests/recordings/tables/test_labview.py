@@ -58,3 +58,44 @@ def test_comments_beside_numbers_are_none(tmp_path):
     (tmp_path / "b.lvm").write_text("LabVIEW Measurement\n***End_of_Header***\n")
     with pytest.raises(ConfigError, match="a LabVIEW measurement with channels"):
         text_table(tmp_path / "b.lvm")
+
+
+def of_two(columns, starts=("0.5", "0.5"), steps=("0.25", "0.25")):
+    """Two channels with these X0 and Delta_X, in one segment."""
+    names = ["X_Value", "F", "X_Value", "G"] if columns == "Multi" else ["X_Value", "F", "G"]
+    clocks = [[float(a) + float(b) * k for k in range(4)] for a, b in zip(starts, steps, strict=True)]
+    times = iter([[""] * 4] if columns == "No" else clocks)
+    made = [next(times) if name == "X_Value" else FORCE for name in names]
+    return "\n".join(["LabVIEW Measurement", "Separator\tTab", f"X_Columns\t{columns}", "***End_of_Header***", "",
+                      "\t".join(["X0", *starts]), "\t".join(["Delta_X", *steps]), "***End_of_Header***",
+                      "\t".join(names), *("\t".join(map(str, row)) for row in zip(*made, strict=True)), ""])
+
+
+@pytest.mark.parametrize("columns", ["One", "No", "Multi"])
+def test_without_times_the_head_tells_rate_and_begin(tmp_path, columns):
+    (tmp_path / "a.lvm").write_text(of_two(columns))
+    table = text_table(tmp_path / "a.lvm")
+    assert (table.rate, table.begin) == (4.0, 0.5) and table.columns["G"].tolist() == FORCE
+
+
+@pytest.mark.parametrize("more", [{"starts": ("0", "2")}, {"steps": ("0.25", "0.5")}])
+def test_channels_that_begin_apart_or_have_other_rates_are_never_on_one_clock(tmp_path, more):
+    for columns in ("One", "No"):
+        (tmp_path / "a.lvm").write_text(of_two(columns, **more))
+        with pytest.raises(ConfigError, match="one (X0|Delta_X) of all channels, .* save it with a column"):
+            text_table(tmp_path / "a.lvm")
+    (tmp_path / "a.lvm").write_text(of_two("Multi", **more))
+    table = text_table(tmp_path / "a.lvm")
+    table.on_clock({"F.column": "F"}, "X_Value (1)")
+    table.on_clock({"G.column": "G"}, "X_Value (2)")
+    assert table.rate is None
+    with pytest.raises(ConfigError, match="G.column: .* found 'G', which stands behind 'X_Value .2.'; list the"):
+        table.on_clock({"F.column": "F", "G.column": "G"}, "X_Value (1)")
+
+
+def test_segments_with_a_pause_between_them_have_no_rate(tmp_path):
+    names = ["X_Value", "F"]
+    for later, rate in ((0.5, 4.0), (3.0, None)):
+        segments = [(0.0, names, [(None, 1.0), (None, 2.0)]), (later, names, [(None, 3.0), (None, 4.0)])]
+        (tmp_path / "a.lvm").write_text(measurement("Tab", ".", "No", segments))
+        assert text_table(tmp_path / "a.lvm").rate == rate

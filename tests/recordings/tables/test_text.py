@@ -187,3 +187,22 @@ def test_rates_of_the_head(tmp_path):
     for head in ("Sample rate: 51.2 kHz\n", "Abtastrate;51200\n", "Sampling Interval: 19.53125 us\n"):
         (tmp_path / "a.csv").write_text(head + "\nU;V\n1;2\n3;4\n")
         assert text_table(tmp_path / "a.csv").rate == pytest.approx(51200)
+
+
+@pytest.mark.parametrize("rows, stated, told", [
+    ("0;12,345\n1;99,125\n2;10,500\n", {}, "numbers such as 12,345 are read with the decimal mark ','"),
+    ("0;12.345\n1;99.125\n2;10.500\n", {}, "numbers such as 12.345 are read with the decimal mark '.'"),
+    ("0;12,345\n1;99,125\n2;10,500\n", {"decimal": ","}, ""), ("0;12,345\n1;0,125\n2;10,500\n", {}, ""),
+    ("0.5;12.345\n1.5;99.125\n2.5;10.500\n", {}, ""), ("0;12\n1;99\n2;10\n", {}, "")])
+def test_marks_that_may_set_thousands_apart_are_told(tmp_path, rows, stated, told):
+    (tmp_path / "a.csv").write_text("t;x\n" + rows)
+    remarks = text_table(tmp_path / "a.csv", Form(**stated)).remarks
+    assert (told in remarks[0] and "state decimal:" in remarks[0]) if told else not remarks
+
+
+def test_single_columns_and_units_in_brackets_within_brackets(tmp_path):
+    (tmp_path / "a.csv").write_text('"load [N]"\n"1.5"\n"2.5"\n"3.5"\n')
+    assert text_table(tmp_path / "a.csv").columns["load [N]"].tolist() == [1.5, 2.5, 3.5]
+    (tmp_path / "b.csv").write_text("Time;p;M\n[ms];[bar(g)];[N m]\n0;1;2\n1;1;3\n2;1;4\n")
+    table = text_table(tmp_path / "b.csv")
+    assert list(table.columns) == ["Time", "p", "M"] and table.units == {"Time": "ms", "p": "bar(g)", "M": "N m"}
