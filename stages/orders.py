@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.diagnosis.experiment_design.overloaded_channels import overload_told
 from pipeline.physics.signals.orders.order_tracking import (
     campbell,
     over_speed,
@@ -88,7 +89,9 @@ def orders(recording: Recording, settings: Settings, context: Context) -> Orders
             made[f"{task[0]}.{task[1]}"] = result
     for remark in remarks:
         context.remark(remark)
-    return Orders(spectra=made, remarks=remarks)
+    cut = [f"{run}, {key}: {told}" for run, key, channel, *_ in tasks if f"{run}.{key}" in made
+           and (told := overload_told(channel))]         # the import has told it before
+    return Orders(spectra=made, remarks=[*remarks, *cut])
 
 
 def _check_names(recording, settings):

@@ -155,4 +155,4 @@ class Orders:
     """Orders of the recordings of a bench. Empty where no channel tells a speed that varies."""
 
     spectra: dict[str, OrderSpectra] = parts("of each channel, named run.channel", empty=True)
-    remarks: Array = text("remark", "what has no orders, and why", empty=True)
+    remarks: Array = text("remark", "what has no orders, and why; what is overloaded", empty=True)

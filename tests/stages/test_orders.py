@@ -106,3 +106,13 @@ def test_missing_teeth_are_told_on_the_terminal_and_in_the_product():
     assert "a wheel of 12 teeth of which 2 are missing" in str(made["stop.torque"].remark)
     assert any("stop, tacho: a wheel of 12 teeth" in line for line in told)
     assert made["stop.torque"].outstanding == pytest.approx([2.0], abs=0.02)
+
+
+def test_orders_of_an_overloaded_channel_may_be_clipping():
+    """A tone of the second order that is cut off has the sixth and the tenth, which no shaft makes."""
+    cut = channel(np.clip(20.0 * order(2.0) + NOISE, -12.0, 12.0), "m/s^2", "acceleration", RATE, 2.0, "pad")
+    context = SimpleNamespace(remark=[].append, map=lambda f, items, _: [f(i) for i in items])
+    made = orders(Recording(source=[], runs={"stop": run(pad=cut)}), settings=Settings(), context=context)
+    (told,) = (remark for remark in made.remarks if "overloaded" in remark)
+    assert told.startswith("stop, pad: ") and "harmonics may come from clipping" in told
+    assert sorted(made.spectra["stop.pad"].outstanding)[:3] == pytest.approx([2.0, 6.0, 10.0], abs=0.05)

@@ -12,7 +12,7 @@ _SHOWN, _ROWS = 4, 60
 
 def chapter(product, look):
     """Chapter of the product Orders; None where it holds nothing."""
-    left_out = remarks_table(product.remarks, "Without orders")
+    left_out = remarks_table(product.remarks, "Remarks on the channels")
     if not (product.spectra or left_out):
         return None
     see = ("What the recordings hold that follows the revolutions: order 1 is once per revolution, as judder from one"
@@ -66,7 +66,8 @@ def _conclusion(product):
             + ("" if all(one.sure[k] for one, k, _ in rows) else " An order or steady tone: over this range of speed a"
                " tone of constant frequency would look alike; more range, or more revolutions a block, tells.")
             + "".join(f" Run {run}, {shaft}: {remark}." for run, shaft, remark in dict.fromkeys(
-                (str(one.run), str(one.shaft), str(one.remark)) for one in spectra if str(one.remark))))
+                (str(one.run), str(one.shaft), str(one.remark)) for one in spectra if str(one.remark)))
+            + "".join(f" {remark}." for remark in product.remarks if "overloaded" in remark))
 
 
 def _diagram(one, look):
