@@ -25,6 +25,8 @@ _DAMPED = 0.2
 _ONE, _OFTEN = 0.5, 0.4
 #: standard deviations that the residues of a mode exceed in the mean square, or it is none
 _SEEN = 4.0
+#: share of the residues of the strongest mode below which a mode is rounding, in every response
+_FAINT = 1e-9
 #: modes that are added at most where something is left, standard deviations by which that must exceed noise, over so
 #: many lines, and by how much more than the number of its values (half of them: chance) a mode must lower chi^2
 _ADDED, _LEFT, _LINES, _GAIN = 20, 8.0, 3, 3.0
@@ -233,11 +235,14 @@ def _picked(diagram):
 
 
 def _significant(fit, frequency):
-    """(m,) whether the residues of a mode exceed their errors, and its pole is known and decays, if in the band."""
+    """(m,) whether the residues of a mode exceed their errors and rounding, and its pole is known and decays, if in the
+    band."""
+    size = abs(fit.residue)
+    faint = (size <= _FAINT * size.max(axis=0, initial=0.0)).all(axis=1)
     strength = np.sqrt(np.mean((abs(fit.residue) / np.maximum(fit.residue_std, 1e-300)) ** 2, axis=1))
     known = (fit.std[:, 1] < 0.5 * np.maximum(abs(fit.pole.real), _FREQUENCY * abs(fit.pole))) & (fit.away < _SETTLED)
     inside, about = (_within(band, fit.pole) for band in (frequency, 2 * frequency - frequency[::-1]))
-    return (strength > _SEEN) & (fit.damping_ratio < _DAMPED) & np.where(inside, known, about)
+    return (strength > _SEEN) & ~faint & (fit.damping_ratio < _DAMPED) & np.where(inside, known, about)
 
 
 def _told(diagram, poles):
