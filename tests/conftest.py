@@ -8,12 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.cli import pace
 from pipeline.environment import ONE_THREAD
-from tests import readers
 from tests.cost import pytest_collection_finish, pytest_runtest_makereport, pytest_terminal_summary  # noqa: F401
 
-os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
+os.environ.update(ONE_THREAD)       # before anything loads linear algebra, also above: more would wait for each other
 os.environ["BRAKECHAIN_WORKERS"] = "1"      # processes of short tasks would take longer to start than to compute
 
 _VARIABLE = "BRAKECHAIN_DATA"
@@ -35,6 +33,8 @@ def pytest_collection_modifyitems(items):
 @pytest.fixture(autouse=True)
 def _readers_here(request):
     """Readers of files run in the process of the test; in processes of their own where it is marked ``apart``."""
+    from tests import readers
+
     with nullcontext() if request.node.get_closest_marker("apart") else readers.in_this_process():
         yield
 
@@ -42,6 +42,8 @@ def _readers_here(request):
 @pytest.fixture(autouse=True, scope="session")
 def _notes_apart(tmp_path_factory):
     """What runs of tests take is noted apart from what those of the user took."""
+    from pipeline.cli import pace
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pace, "user_folder", lambda: tmp_path_factory.mktemp("notes"))
         yield

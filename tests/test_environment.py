@@ -1,6 +1,8 @@
 """The environment: compiled code lies in a folder of the user; the locks of users and developers, their licences."""
 
 import re
+import subprocess
+import sys
 import tomllib
 from importlib.metadata import distributions
 from pathlib import Path
@@ -75,3 +77,10 @@ def test_files_beside_the_sources_are_packaged():
     package = Path(__file__).parents[1] / "pipeline"
     files = [file.relative_to(package) for file in package.rglob("*.*") if file.suffix not in (".py", ".pyc")]
     assert files and [file for file in files if not any(file.match(pattern) for pattern in patterns)] == []
+
+
+def test_tests_set_the_number_of_threads_before_anything_loads_linear_algebra():
+    """Later it would change nothing: BLAS starts its threads as it is loaded."""
+    told = "import sys, os, tests.conftest; print('numpy' in sys.modules, os.environ['OPENBLAS_NUM_THREADS'])"
+    done = subprocess.run([sys.executable, "-c", told], cwd=licences.ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "1"]

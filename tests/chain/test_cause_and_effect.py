@@ -31,8 +31,9 @@ def levels(folder, *changes):
     return store.read(Squeal, folder / "squeal.h5").peak_level
 
 
-@pytest.mark.parametrize("change", ["structure.pad.lining_young_normal=1.4 GPa",
-                                    "structure.joints.guide_pin_stiffness=30 MN/m"], ids=["pad modulus", "caliper"])
+@pytest.mark.parametrize("change", [
+    pytest.param("structure.pad.lining_young_normal=1.4 GPa", id="pad modulus"),
+    pytest.param("structure.joints.guide_pin_stiffness=30 MN/m", id="caliper", marks=pytest.mark.slow)])
 def test_a_changed_stiffness_changes_the_squeal(copy, finished, change):
     before = store.read(Squeal, finished / "squeal.h5").peak_level
     assert np.abs(levels(copy, change) - before).max() > VISIBLE

@@ -70,7 +70,7 @@ def _dead(script, when, folder, case, *settings):
     return done.returncode
 
 
-@pytest.mark.parametrize("product", ["surface", "squeal"])
+@pytest.mark.parametrize("product", [pytest.param("surface", marks=pytest.mark.slow), "squeal"])
 def test_death_in_mid_write(copy, finished, product):
     (copy / f"{product}.h5").unlink()
     assert killed_while_writing(product, copy) == -signal.SIGKILL

@@ -71,9 +71,10 @@ def test_values_that_differ_between_runs_hide_nothing_and_are_no_missing_effect(
     more = {"parameters": {"joints.mount.stiffness": {"spread": 0.1, "between_runs": 0.01},
                            "joints.mount.damping": {"spread": 0.3}},
             "effects": ["cubic_stiffness", "coulomb"], "solver": False}
-    same = asked(reassembled(), **more).solved()
+    question = asked(reassembled(), **more)
+    same = question.solved()
     assert same.decision.verdict == "consistent"
-    fitted, held_out = np.array(product(asked(reassembled(), **more), same).fit)
+    fitted, held_out = np.array(product(question, same).fit)
     assert fitted[1] < 1.1 * fitted[3] and held_out[1] < 1.1 * held_out[3], "each run is shown with its own value"
     own = same.completed.values
     assert [own[f"between_runs@level_{k}.joints.mount.stiffness"] * own["joints.mount.stiffness"]

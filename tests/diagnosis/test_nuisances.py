@@ -22,6 +22,8 @@ ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount
 #: a magnet every 30 mm, of which a case knows the distance alone
 COGGING = {"cogging": {"mount": {"sine": "0 N", "cosine": "0 N", "period": "30 mm"}}}
 STRONG = {"cogging": {"mount": {"sine": "2 N", "cosine": "-1 N", "period": "30 mm"}}}
+#: levels of shaking, the last of them held out
+THREE = (2.0, 9.0, 7.0)
 
 
 def asked(shown, stated=None, **more):
@@ -52,8 +54,8 @@ def test_what_the_case_fits_anyway_is_no_nuisance():
 
 def test_a_forgotten_weight_does_not_hide_a_cubic_spring():
     """The block hangs: without a word of its weight its spring seems to be unsymmetric."""
-    shown = recording(HIDDEN, corrections={"loads.mount": "-9.81 N"})
-    problem = asked(shown, nuisances=["loads", "zeros"])
+    shown = recording(HIDDEN, THREE, corrections={"loads.mount": "-9.81 N"})
+    problem = asked(shown, nuisances=["loads", "zeros"], held_out=["level_3"])
     told = problem.solved()
     assert [c.name for c in told.decision.named] == ["cubic_stiffness at mount"], told.decision.reasons
     assert found(told, "loads.mount", -9.81) and found(told, "cubic_stiffness@mount.coefficient", 15000.0)
@@ -71,7 +73,8 @@ def test_a_zero_that_is_off_is_no_missing_effect():
 
 def test_cogging_of_a_known_period_is_fitted_beside_a_law():
     both = {**STRONG, "coulomb": {"mount": {"force": "1 N"}}}
-    told = asked(recording(both), COGGING, nuisances=["cogging"]).solved()
+    told = asked(recording(both, THREE), COGGING, nuisances=["cogging"], held_out=["level_3"],
+                 effects=["cubic_stiffness", "coulomb"]).solved()
     assert [c.name for c in told.decision.named] == ["coulomb at mount"], told.decision.reasons
     assert found(told, "cogging@mount.sine", 2.0) and found(told, "cogging@mount.cosine", -1.0)
     assert found(told, "coulomb@mount.force", 1.0)

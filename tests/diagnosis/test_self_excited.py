@@ -6,7 +6,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
-from tests.diagnosis.small_bench import bench, laid_out, recorded
+from tests.diagnosis.small_bench import RUNS, bench, laid_out, recorded
 from tests.diagnosis.solving import solved
 
 ASKED = {"forward": "poles", "solver": False, "effects": ["falling_friction", "contact_stiffness_law", "runout"],
@@ -15,9 +15,11 @@ ASKED = {"forward": "poles", "solver": False, "effects": ["falling_friction", "c
                         "friction.stiffness": {"spread": 0.2}, "friction": {"spread": 0.2}}}
 
 
-def asked(hidden=None, **more):
+def asked(hidden=None, runs=(*RUNS, "turned"), **more):
+    """DiagnosisProblem of these ``runs`` and what repeats them."""
     truth = bench(hidden, corrections={"bodies.pin.frequency": 1.03, "friction": 1.1, "contact.stiffness": 0.9})
-    return pole_problem(bench(), recorded(truth), fill(Settings, {**ASKED, **more}, "diagnosis"), laid_out().poles)
+    shown = {name: one for name, one in recorded(truth).items() if name.removesuffix("_again") in runs}
+    return pole_problem(bench(), shown, fill(Settings, {**ASKED, **more}, "diagnosis"), laid_out().poles)
 
 
 @pytest.mark.parametrize("hidden, verdict", [
@@ -36,4 +38,4 @@ def test_what_was_hidden_is_named_and_wrong_values_are_not_physics(hidden, verdi
                                         ({"parameters": {"bodies.pin.colour": {}}}, "diagnosis.parameters")])
 def test_wrong_settings_are_refused(more, said):
     with pytest.raises(ConfigError, match=said):
-        asked(**more)
+        asked(runs=("rest",), **more)

@@ -1,6 +1,7 @@
 """A toy bench for the tests of a diagnosis: a driven oscillator whose truth is integrated apart from its model.
 
-Truth: scipy's DOP853 with dense tolerance. Model: Runge-Kutta 4 in numba. Channels: displacement [m], velocity [m/s].
+Truth: LSODA of SciPy with a tight tolerance. Model: Runge-Kutta 4 in numba, whose steps err by less than 2e-5 of the
+standard deviation of a channel, beside dry friction by 1e-3. Channels: displacement [m], velocity [m/s].
 """
 
 from dataclasses import replace
@@ -9,13 +10,13 @@ from math import pi, sin, tanh
 
 import numpy as np
 from numba import njit
-from scipy.integrate import solve_ivp
+from scipy.integrate import odeint
 
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
 from pipeline.inference.rules import DEFAULTS
 
-RATE, SAMPLES, SUBSTEPS = 200.0, 2000, 4
+RATE, SAMPLES, SUBSTEPS = 200.0, 2000, 2
 STIFFNESS, DAMPING = 400.0, 1.2         # of unit mass [N/m, N s/m]
 NOMINAL = Hypothesis("nominal", (), (
     Parameter("stiffness", "N/m", STIFFNESS, LogNormal(STIFFNESS, 0.2)),
@@ -81,7 +82,7 @@ def predict(hypothesis, values, run):
 
 
 def truth(conditions, stiffness=STIFFNESS, damping=DAMPING, extra=None, gain=1.0):
-    """Both channels (2, n) with an ``extra`` force(t, x, v) in the equation of motion, by DOP853."""
+    """Both channels (2, n) with an ``extra`` force(t, x, v) in the equation of motion, by LSODA."""
     motion = _moved(conditions["amplitude"], conditions["tones"], stiffness, damping, extra)
     return motion * np.array([[gain], [1.0]])
 
@@ -99,7 +100,7 @@ def _moved(amplitude, tones, stiffness, damping, extra):
             force += sin(angular * t + phase)
         return v, amplitude * force - stiffness * x - damping * v - (extra(t, x, v) if extra else 0.0)
 
-    return solve_ivp(slope, (0, time[-1]), (0.0, 0.0), "DOP853", time, rtol=1e-9, atol=1e-12).y
+    return odeint(slope, (0.0, 0.0), time, rtol=1e-10, atol=1e-13, tfirst=True, mxstep=10**5).T
 
 
 def conditions_of(held_out=True):

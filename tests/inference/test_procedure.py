@@ -22,7 +22,7 @@ from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import score_screen
 from pipeline.inference.search.selection import Selection, where_felt
 from tests.inference import linear
-from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, changed, predict_with_lag
+from tests.inference.oscillator import CATALOGUE, alone, bench, changed
 
 
 def cubic(t, x, v):
@@ -65,13 +65,6 @@ def test_the_verdict_is_right(truth, verdict, named, noise):
         best, = told.named
         true = {"cubic": ("cubic_stiffness", 1.5e4), "coulomb": ("friction_force", 0.6)}[named[0]]
         assert abs(best.fit.values[true[0]] - true[1]) < 4 * best.fit.spread(told.weights)[true[0]]
-
-
-def test_a_solver_that_lags_is_told_from_missing_physics():
-    problem = replace(bench(5, stiffness=420.0), predict=predict_with_lag)
-    told = diagnose(problem, budget(problem), (*CATALOGUE, SOLVER))
-    assert told.decision.verdict == "numerics"
-    assert told.named[0].fit.values["refinement"] == pytest.approx(1.0, abs=0.02)
 
 
 def test_one_run_alone_ends_in_a_tie_at_most():
@@ -178,12 +171,14 @@ def test_linearised_p_values_agree_with_full_refits_under_the_null():
     assert abs(np.mean(small) - level) < 3 * np.sqrt(level * (1 - level) / 60)
 
 
-def test_twenty_five_hypotheses_take_less_than_twenty_seconds():
+@pytest.mark.parametrize("count", [7, pytest.param(25, marks=pytest.mark.slow)])
+def test_twenty_five_hypotheses_take_less_than_twenty_seconds(count):
+    """Those of the catalogue alone, as a sample of them, their share."""
     problem = bench(5, 0.1, stiffness=430.0, extra=coulomb)
-    many = tuple(replace(c, name=f"{c.name}_{k}") for k in range(4) for c in CATALOGUE)[:25]
+    many = tuple(replace(c, name=f"{c.name}_{k}") for k in range(4) for c in CATALOGUE)[:count]
     start = process_time()
     diagnose(problem, budget(problem), many)
-    assert process_time() - start < 20
+    assert process_time() - start < 20 * count / 25
 
 
 def elaborated(*names):

@@ -4,6 +4,7 @@ import re
 from contextlib import contextmanager
 
 import pytest
+from matplotlib.figure import Figure
 
 from pipeline.contract import Context
 from pipeline.views.figures import style
@@ -49,3 +50,13 @@ def every_picture_has_its_data_with_units_and_nothing_is_clipped(monkeypatch):
         assert not [c.name for c in columns if c.values.dtype.kind != "U" and not re.search(r" / \S", c.name)]
         assert {item.panel for item in series} <= set(range(len(panels)))
         assert min(left, bottom, width - right, height - top) > -0.02, (left, bottom, width - right, height - top)
+
+
+@pytest.fixture
+def words_only(monkeypatch, every_picture_has_its_data_with_units_and_nothing_is_clipped):
+    """Line drawings are laid out, and not drawn: for tests of what is told beside pictures that other tests draw."""
+    whole = Figure.savefig
+    monkeypatch.setattr(Figure, "savefig", lambda figure, stream, format, **more: stream.write(b"<svg></svg>")
+                        if format == "svg" else whole(figure, stream, format=format, **more))
+    with every_picture_has_its_data_with_units_and_nothing_is_clipped():
+        yield

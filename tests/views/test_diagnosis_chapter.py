@@ -28,7 +28,7 @@ def written():
     ("consistent", "Nothing is missing: the model explains the recordings", "quiet"),
     ("unknown", "Unmodelled physics at guide, outside the catalogue", "squeal"),
     ("numerics", "The solver, not the physics", "warning")])
-def test_every_verdict_has_its_headline(kind, said, tone):
+def test_every_verdict_has_its_headline(kind, said, tone, words_only):
     found = diagnosis(kind)
     assert headline(found)[0].startswith(said) and headline(found)[1] == tone
     assert chapter(found, Look()).figures, "and a chapter"
@@ -177,7 +177,7 @@ def test_what_is_left_after_naming_is_told_with_the_next_candidate():
     assert dict(note(diagnosis()))["What is left"] == ""
 
 
-def test_without_a_held_out_run_the_chapter_says_so():
+def test_without_a_held_out_run_the_chapter_says_so(words_only):
     found = diagnosis()
     fitted = {name: changed(run, held_out=0) for name, run in found.runs.items()}
     assert "No run was held out" in chapter(changed(found, runs=fitted), Look()).notes[0]

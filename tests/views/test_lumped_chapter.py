@@ -27,14 +27,14 @@ def test_every_part_is_told():
     assert "At rest the contacts carry 5–20\u202fN." in found.conclude and "3 coordinates" in found.see
 
 
-def test_a_system_too_large_to_survey_has_no_diagram_and_folded_tables(monkeypatch):
+def test_a_system_too_large_to_survey_has_no_diagram_and_folded_tables(monkeypatch, words_only):
     assert chapter(small.lumped(), None, Look()).figures
     monkeypatch.setattr(lumped_chapter, "_SURVEYED", 3)
     large = chapter(small.lumped(), None, Look())
     assert not large.figures and large.tables[0].folded and large.tables[1].folded
 
 
-def test_a_system_without_contacts_says_so():
+def test_a_system_without_contacts_says_so(words_only):
     none = np.empty((0, 3))
     bare = changed(small.lumped(), contact_name=[], contact_body=[], contact_position=none, contact_area=[],
                    contact_lever=[], contact_gap=[], contact_normal=none, contact_tangent=none, contact_lateral=none,

@@ -90,7 +90,7 @@ def test_events_are_told_beside_modes_and_what_chance_would_do():
     assert key_figure(bare, LOOK).image != key_figure(product, LOOK).image
 
 
-def test_the_loudest_squeal_can_be_heard():
+def test_the_loudest_squeal_can_be_heard(words_only):
     (sound,) = chapter(small.noise_events(), LOOK).sounds
     told = plain(sound.caption)
     assert sound.data[:4] == b"RIFF" and "as recorded (squeal.wav): run stop_1, mic, from 1.25 s on" in told
@@ -98,7 +98,7 @@ def test_the_loudest_squeal_can_be_heard():
     assert not chapter(small.noise_events(quiet=True), LOOK).sounds
 
 
-def test_overload_is_told_on_the_first_screen_and_levels_are_lower_bounds():
+def test_overload_is_told_on_the_first_screen_and_levels_are_lower_bounds(words_only):
     product = small.noise_events()
     cut = replace(product, record_overload=np.array([0.12, 0.0, 0.0]), record_range=np.array([20.0, 0.0, 0.0]),
                   event_kind=np.where(product.event_kind == "harmonic", "clipping", product.event_kind))

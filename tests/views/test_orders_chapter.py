@@ -33,7 +33,7 @@ def test_orders_are_told_with_amplitude_speed_and_frequency():
     assert "N m" in made.tables[0].rows[0][3]
 
 
-def test_none_that_stands_out_and_no_varying_speed():
+def test_none_that_stands_out_and_no_varying_speed(words_only):
     quiet = chapter(small.orders(quiet=True), LOOK)
     assert len(quiet.figures) == 1 and not quiet.tables and "none has orders that stand out" in plain(quiet.conclude)
     assert chapter(Orders(), LOOK) is None
@@ -65,7 +65,7 @@ def test_the_first_screen_tells_the_largest_orders():
     assert "Campbell diagram" not in page([], quiet | {"orders": small.orders(quiet=True)}, case, LOOK)
 
 
-def test_what_was_assumed_of_a_tacho_is_told():
+def test_what_was_assumed_of_a_tacho_is_told(words_only):
     whole = small.orders()
     toothed = {name: replace(one, remark=np.array("a wheel of 60 teeth")) for name, one in whole.spectra.items()}
     assert chapter(replace(whole, spectra=toothed), LOOK).conclude.endswith(" Run stop, wheel: a wheel of 60 teeth.")

@@ -32,7 +32,7 @@ def test_what_was_tried_in_vain_is_not_called_a_remedy():
     assert "changed as far as parts usually can be" in statement(small.sensitivities(stable=True))
 
 
-def test_the_table_follows_the_ranks_and_tells_assumed_scatter():
+def test_the_table_follows_the_ranks_and_tells_assumed_scatter(words_only):
     table = chapter(small.sensitivities(), None, LOOK).tables[0]
     rows = [tuple(map(plain, row)) for row in table.rows]
     assert rows[0][:6] == ("shim stiffness", "50 N/µm", "30 %", "+120 ± 6", "+4", "−76 %")
@@ -42,7 +42,7 @@ def test_the_table_follows_the_ranks_and_tells_assumed_scatter():
                                         "friction over pressure"]
 
 
-def test_values_that_are_not_known_of_a_mode_are_left_out_of_its_ranks():
+def test_values_that_are_not_known_of_a_mode_are_left_out_of_its_ranks(words_only):
     product = small.sensitivities()
     known, rank = product.known.copy(), product.rank.copy()
     known[0, 0], rank[0] = 0, [0, 1, 2, 3, 4]
@@ -51,7 +51,7 @@ def test_values_that_are_not_known_of_a_mode_are_left_out_of_its_ranks():
     assert next(row for row in lost.tables[2].rows if row[0] == "shim stiffness")[1] == "—"
 
 
-def test_remedies_that_were_tried_and_values_without_a_derivative_have_tables():
+def test_remedies_that_were_tried_and_values_without_a_derivative_have_tables(words_only):
     _, tried, every, missing = chapter(small.sensitivities(), None, LOOK).tables
     assert [tuple(map(plain, row[:4])) for row in tried.rows] == [("friction", "0.6", "0.42", "−3"),
                                                                  ("lining loss factor", "0.03", "0.09", "+40")]

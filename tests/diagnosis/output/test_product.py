@@ -80,9 +80,10 @@ def test_nothing_missing_and_wrong_values():
 
 
 def test_where_nothing_is_named_values_are_as_uncertain_as_what_is_missing():
-    given = recording(HIDDEN)
+    given = recording(HIDDEN, levels=(2.0, 9.0, 7.0))
     asked = forced_problem(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(
-        Settings, {**ASKED, "solver": False, "effects": ["coulomb", "quadratic_stiffness"]}, "d"))
+        Settings, {**ASKED, "held_out": ["level_3"], "solver": False, "effects": ["coulomb", "quadratic_stiffness"]},
+        "d"))
     found = solved(asked, kept=2)
     written, null = product(asked, found), found.null
     assert written.verdict.item() == "unknown" and list(written.parameter) == list(null.values)

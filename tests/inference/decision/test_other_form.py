@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from pipeline.inference.decision import other_form
 from pipeline.inference.decision.other_form import largest_shifted, left_along, objection
@@ -30,9 +31,7 @@ def named(seed, colour=0.0, scale=1.0, rest=0.0, samples=300):
     for run in whole.runs:
         for name, column in tables[run.name].items():
             tables[run.name][name] = np.convolve(column, np.hanning(9), "same")
-        white, noise = random.standard_normal(samples), np.zeros(samples)
-        for k in range(samples):
-            noise[k] = colour * noise[k - 1] + np.sqrt(1 - colour**2) * white[k]
+        noise = lfilter([np.sqrt(1 - colour**2)], [1.0, -colour], random.standard_normal(samples))
         clean = 3 * tables[run.name]["effect_1_0"] + rest * tables[run.name]["effect_2_0"]
         runs.append(replace(run, samples=(clean + scale * linear.STD * noise)[None]))
     problem = replace(whole, runs=tuple(runs)).given(catalogue[0])

@@ -9,7 +9,7 @@ from pipeline.views.chapters.limit_cycle import chapter
 from tests.views import products_for_views as small
 
 
-def test_the_loudest_cycle_can_be_heard_and_says_what_it_is():
+def test_the_loudest_cycle_can_be_heard_and_says_what_it_is(words_only):
     (sound,) = chapter(small.limit_cycle(), Look(dpi=50)).sounds
     assert sound.data[:4] == b"RIFF" and "not the sound at an ear" in sound.caption
     assert "strongest line of the velocity at sensor a" in sound.caption

@@ -29,7 +29,7 @@ def test_the_prediction_is_drawn_beside_that_without_it(predicted):
     assert "with the latent force" in drawn and "recalibrated" in drawn
 
 
-def test_the_page_tells_the_errors_and_labels_them(predicted):
+def test_the_page_tells_the_errors_and_labels_them(predicted, words_only):
     told = chapter(predicted, Look())
     table, = (t for t in told.tables if LABEL in t.title)
     assert table.rows == (("pulses", "30\u202f%", "2\u202f%", "1.4\u202f%"),)
@@ -38,6 +38,6 @@ def test_the_page_tells_the_errors_and_labels_them(predicted):
     assert predicted.latent_use.item() in told.notes and any("as requested" in n for n in told.notes)
 
 
-def test_without_asking_the_page_says_that_no_prediction_uses_it():
+def test_without_asking_the_page_says_that_no_prediction_uses_it(words_only):
     told = chapter(diagnosis("unknown"), Look())
     assert any("not used in any prediction" in n for n in told.notes) and not any(LABEL in t.title for t in told.tables)
