@@ -20,7 +20,7 @@ from tests.views.products_for_views import filled, noise_events
 
 SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "friction", "variation": 0.1})
 GIVEN = {"low": "500 Hz", "high": "8 kHz", "silent_up_to": "1.5 MPa", "constant_speed": "8 rad/s",
-         "cycle_speed": "8 rad/s", "draws": 60, "sources": SOURCES}
+         "cycle_speed": "8 rad/s", "draws": 30, "sources": SOURCES}
 
 
 def recording(*lines):
@@ -50,7 +50,7 @@ def drawn(brake):
     """The same draws of the whole brake."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("stages.probability.even_scores", independent)
-        return probability(*brake, settings=Draws(draws=60, checked=0, sources=SOURCES))
+        return probability(*brake, settings=Draws(draws=30, checked=0, sources=SOURCES))
 
 
 @pytest.fixture(scope="module")
@@ -90,7 +90,7 @@ def test_the_cycle_is_run_at_constant_power(brake):
 
 
 #: settings for two recorded runs
-OF_RUNS = Settings(**{**GIVEN, "runs": ("low", "high")})
+OF_RUNS = Settings(**{**GIVEN, "draws": 20, "runs": ("low", "high")})
 
 
 @pytest.fixture(scope="module")

@@ -246,7 +246,7 @@ def test_every_threshold_is_listed_with_its_unit(written):
     assert [row[:2] for row in table.rows] == [("decision.posterior", "0.9"), ("poles.delay_std", "1e-06\u202fs")]
 
 
-def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_there_are_none(written):
+def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_there_are_none(written, words_only):
     title = "Combinations of effects that were tried"
     table = next(t for t in written.tables if t.title == title)
     assert table.rows == (("coulomb at a + cubic stiffness at a", "12", "120", "11\u202f%", "1.1",
