@@ -1,7 +1,6 @@
 """Stage noise_events on runs of microphones, accelerometers and slow channels."""
 
 import io
-from contextlib import closing
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,10 +8,10 @@ import pytest
 import scipy
 
 from pipeline.contract import ConfigError, mapped, store
-from pipeline.contract.executors import LocalProcesses
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.samples import channel
 from stages.noise_events import Settings, companions, noise_events
+from tests.stages.two_processes import TwoProcesses
 
 RATE = 48000.0
 T = np.arange(round(4 * RATE)) / RATE
@@ -187,10 +186,8 @@ def test_a_product_in_its_file_gives_the_events_of_one_in_memory(tmp_path, monke
     assert maps[0] is not None and maps[1] is None
     expected = store.content_hash(noise_events(inside, settings=Settings()))
     assert store.content_hash(noise_events(outside, settings=Settings())) == expected
-    with closing(LocalProcesses(2)) as work:
-        context = SimpleNamespace(map=lambda function, items, _: work.map(function, items, lambda: None),
-                                  remark=lambda _: None)
-        assert store.content_hash(noise_events(outside, settings=Settings(), context=context)) == expected
+    again = noise_events(outside, settings=Settings(), context=TwoProcesses())
+    assert store.content_hash(again) == expected
 
 
 def test_a_condition_is_averaged_in_parts(monkeypatch):
