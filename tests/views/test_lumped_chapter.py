@@ -34,7 +34,7 @@ def test_a_system_too_large_to_survey_has_no_diagram_and_folded_tables(monkeypat
     assert not large.figures and large.tables[0].folded and large.tables[1].folded
 
 
-def test_a_system_without_contacts_says_so(words_only):
+def test_a_system_without_contacts_says_so():
     none = np.empty((0, 3))
     bare = changed(small.lumped(), contact_name=[], contact_body=[], contact_position=none, contact_area=[],
                    contact_lever=[], contact_gap=[], contact_normal=none, contact_tangent=none, contact_lateral=none,

@@ -29,7 +29,7 @@ def test_modes_errors_and_pairs_are_told():
     assert len(made.figures) == 2 and "3 modes" in made.figures[0].caption
 
 
-def test_damping_of_narrow_peaks_is_doubted(words_only):
+def test_damping_of_narrow_peaks_is_doubted():
     known = small.modal_test()
     assert "too large" not in chapter(known, LOOK).conclude
     modes = replace(known.runs["hammer"], narrow=np.array([1, 1, 0]))

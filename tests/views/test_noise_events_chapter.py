@@ -98,7 +98,7 @@ def test_the_loudest_squeal_can_be_heard(words_only):
     assert not chapter(small.noise_events(quiet=True), LOOK).sounds
 
 
-def test_overload_is_told_on_the_first_screen_and_levels_are_lower_bounds(words_only):
+def test_overload_is_told_on_the_first_screen_and_levels_are_lower_bounds():
     product = small.noise_events()
     cut = replace(product, record_overload=np.array([0.12, 0.0, 0.0]), record_range=np.array([20.0, 0.0, 0.0]),
                   event_kind=np.where(product.event_kind == "harmonic", "clipping", product.event_kind))

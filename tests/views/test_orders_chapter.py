@@ -33,7 +33,7 @@ def test_orders_are_told_with_amplitude_speed_and_frequency():
     assert "N m" in made.tables[0].rows[0][3]
 
 
-def test_none_that_stands_out_and_no_varying_speed(words_only):
+def test_none_that_stands_out_and_no_varying_speed():
     quiet = chapter(small.orders(quiet=True), LOOK)
     assert len(quiet.figures) == 1 and not quiet.tables and "none has orders that stand out" in plain(quiet.conclude)
     assert chapter(Orders(), LOOK) is None

@@ -42,7 +42,7 @@ def test_the_table_follows_the_ranks_and_tells_assumed_scatter(words_only):
                                         "friction over pressure"]
 
 
-def test_values_that_are_not_known_of_a_mode_are_left_out_of_its_ranks(words_only):
+def test_values_that_are_not_known_of_a_mode_are_left_out_of_its_ranks():
     product = small.sensitivities()
     known, rank = product.known.copy(), product.rank.copy()
     known[0, 0], rank[0] = 0, [0, 1, 2, 3, 4]

@@ -20,7 +20,7 @@ def test_a_settled_cycle_with_its_harmonics():
     assert len(told.figures) == 10 and len(told.tables[0].rows) == 4
 
 
-def test_a_cycle_that_has_not_settled_is_not_called_one(words_only):
+def test_a_cycle_that_has_not_settled_is_not_called_one():
     told = chapter(small.transient(settled=False), LOOK)
     assert "4 of 4 signals have NOT settled" in told.conclude
     assert {row[5] for row in told.tables[0].rows} == {"NO"}

@@ -54,7 +54,7 @@ def test_the_last_page_is_not_marked():
     assert "eing computed" not in text and "not complete" not in text
 
 
-def test_what_failed_stands_above_the_chapters_of_the_rest(words_only):
+def test_what_failed_stands_above_the_chapters_of_the_rest():
     products = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
     errors = {"limit_cycle": "limit_cycle: expected a mode, found <none>"}
     html, verdict = unfinished_page(products, small.case(), errors, ["probability"], Settings(mode_pictures=0))
