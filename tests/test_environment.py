@@ -1,5 +1,6 @@
 """The environment: compiled code lies in a folder of the user; the locks of users and developers, their licences."""
 
+import os
 import re
 import subprocess
 import sys
@@ -75,12 +76,14 @@ def test_files_beside_the_sources_are_packaged():
     settings = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())
     patterns = settings["tool"]["setuptools"]["package-data"]["pipeline"]
     package = Path(__file__).parents[1] / "pipeline"
-    files = [file.relative_to(package) for file in package.rglob("*.*") if file.suffix not in (".py", ".pyc")]
+    files = [file.relative_to(package) for file in package.rglob("*.*")
+             if file.suffix != ".py" and "__pycache__" not in file.parts]
     assert files and [file for file in files if not any(file.match(pattern) for pattern in patterns)] == []
 
 
 def test_tests_set_the_number_of_threads_before_anything_loads_linear_algebra():
     """Later it would change nothing: BLAS starts its threads as it is loaded."""
     told = "import sys, os, tests.conftest; print('numpy' in sys.modules, os.environ['OPENBLAS_NUM_THREADS'])"
-    done = subprocess.run([sys.executable, "-c", told], cwd=licences.ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-c", told], env=os.environ | {"PYTHONPATH": str(licences.ROOT)},
+                          capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "1"]

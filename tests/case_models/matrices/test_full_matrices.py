@@ -20,7 +20,7 @@ STIFFNESS, CONTACT, MASS = 1e6, 4e5, np.array([1.0, 1.5, 2.0])
 class Log(Context):
     """Keeps what it is told, under the name of the case."""
 
-    def log(self, message):
+    def remark(self, message):
         self.case.append(message)
 
 
