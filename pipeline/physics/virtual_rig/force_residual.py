@@ -194,9 +194,10 @@ def drawn_forces(bench, run, motion, doubt=None):
 
     ``doubt`` as of ``rate_doubt``: with it rigid dry friction at rest is left out; None where speeds are exact.
     """
-    model, instants = bench.model, _instants(bench, run)
+    model = bench.model
     if not len(model.contacts.area):
         return element_forces(bench, run, motion, model.elements, doubt)
+    instants = _instants(bench, run)
     normal, drawn, slip = _contacts(bench, run, motion, instants)
     elements, resting = _elements(model.elements, motion, instants, drawn, slip, doubt)
     return elements - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn), resting
