@@ -2,7 +2,6 @@
 
 import os
 import re
-import struct
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +17,7 @@ from pipeline.physics.rough.topography import (
     statistics,
     to_grid,
 )
+from tests.fuzz.semantics import scans
 
 SPACING = (2e-6, 1e-6)
 SCANS = Path(os.environ.get("BRAKECHAIN_DATA", "../shared/data")) / "surfaces"
@@ -146,24 +146,8 @@ def test_real_scans_are_read_and_cleaned(name):
 
 
 def gwyddion(path, channels, size=96e-6):
-    """A file of Gwyddion with channels [(title, heights, unit)]."""
-    def component(name, kind, content):
-        return name.encode() + b"\0" + kind + content
-
-    def held(name, content):
-        return name.encode() + b"\0" + struct.pack("<I", len(content)) + content
-
-    inside = b""
-    for k, (title, heights, unit) in enumerate(channels):
-        rows, columns = heights.shape
-        field = component("xres", b"i", struct.pack("<i", columns)) + component("yres", b"i", struct.pack("<i", rows))
-        field += b"".join(component(n, b"d", struct.pack("<d", size)) for n in ("xreal", "yreal"))
-        field += b"".join(component(n, b"o", held("GwySIUnit", component("unitstr", b"s", u.encode() + b"\0")))
-                          for n, u in (("si_unit_xy", "m"), ("si_unit_z", unit)))
-        field += component("data", b"D", struct.pack("<I", heights.size) + heights.astype("<f8").tobytes())
-        inside += component(f"/{k}/data", b"o", held("GwyDataField", field))
-        inside += component(f"/{k}/data/title", b"s", title.encode() + b"\0")
-    path.write_bytes(b"GWYP" + held("GwyContainer", inside))
+    """A file of Gwyddion with channels [(title, heights, unit)] of one shape, ``size`` m along both sides."""
+    path.write_bytes(scans.gwyddion(channels, [size / count for count in channels[0][1].shape]))
     return path
 
 
