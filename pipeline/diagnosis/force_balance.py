@@ -88,7 +88,7 @@ def force_balance_problem(bench, recorded, settings, equation):
     planned = planned_motions(bench, {o.name: recorded[o.name] for o in observations
                                       if not (o.held_out or o.repeat_of)}, equation, settings.next)
     forward = Balanced(bench, balances | {p.name: p.shown for p in planned}, {p.name: p.altered for p in planned})
-    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings, balances)))
+    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings, balances)), stepped=False)
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     for name, one in balances.items():
         refuse_unforced(name, one.seen.samples, noises[name].std)

@@ -56,9 +56,13 @@ def _pair(asked, single, first, seconds):
     if not second_effect.has_room(first.fit, explained, rules):
         return None, False
     beside_it = replace(asked, catalogue=seconds).given([first.refined])
+    if first in single.named:
+        beside_it = replace(beside_it, bound=second_effect.bound(first, single.null, seconds, rules))
     try:
         _, pair = beside_it.steps(first.fit, single)
     except BrakechainError:
+        return None, False
+    if pair is None:
         return None, False
     if not second_effect.matters(pair, explained, rules):
         whole = _joined(beside_it, single, first, pair)

@@ -162,13 +162,15 @@ class Problem:
     """Observed ``runs``, the forward model ``predict`` and the ``nominal`` hypothesis.
 
     ``own`` {run name: number of parameters of that run alone that a hypothesis has at most}, of the nominal one where
-    not given (``for_all``): by it the first part of a held-out run is as long for all that are compared.
+    not given (``for_all``): by it the first part of a held-out run is as long for all that are compared. ``stepped``:
+    whether what a model is off by grows along a run, so that its begin is easier to fit than the whole of it.
     """
 
     runs: tuple
     predict: ForwardModel
     nominal: Hypothesis
     own: dict = field(default_factory=dict)
+    stepped: bool = True
 
     def __post_init__(self):
         names = [run.name for run in self.runs]

@@ -50,7 +50,8 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
 
 @dataclass(frozen=True)
 class Asked:
-    """What ``diagnose`` was asked; elaborate candidates come last in the ``catalogue``. ``alone``: of one law only."""
+    """What ``diagnose`` was asked; elaborate candidates come last in the ``catalogue``. ``alone``: of one law only;
+    ``bound``: the objective to which a candidate has to come down to matter."""
 
     problem: Problem
     budget: dict
@@ -59,6 +60,7 @@ class Asked:
     fan_out: FanOut
     tell: Callable | None = None
     alone: bool = False
+    bound: float = np.inf
 
     def told(self, motions=None):
         """``diagnosed``, of long records on their beginnings first."""
@@ -98,7 +100,7 @@ class Asked:
 
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
-        """
+        (None, None) where none of the catalogue can come down to the ``bound``."""
         return self._from(self._recalibrated(start), base)
 
     def _recalibrated(self, start):
@@ -119,7 +121,10 @@ class Asked:
         settings, fan_out, second = self.settings, self.fan_out, base is not None
         simple = self.catalogue[:sum(not c.elaborate for c in self.catalogue)]
         screening = screen_catalogue(calibration, simple, settings, fan_out, second)
-        refits = refit_catalogue(screening, simple, settings, fan_out, beside_a_first=second)
+        if second and len(simple) == len(self.catalogue) and np.isfinite(self.bound) and not screening.hopeful(
+                self.bound):
+            return None, None
+        refits = refit_catalogue(screening, simple, settings, fan_out, None, second, self.bound)
         if refits.overtake(calibration) and not spent():
             return self._from(refits.calibration, base)
         told = decided(refits, settings, base)
@@ -132,7 +137,7 @@ class Asked:
         catalogue = (*refits.refitter.catalogue,
                      *where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
         screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
-        refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
+        refits = refit_catalogue(screening, catalogue, settings, fan_out, refits, second, self.bound)
         if refits.overtake(calibration) and not spent():
             return self._from(refits.calibration, base)
         return refits, decided(refits, settings, base)
@@ -155,14 +160,17 @@ class Asked:
         if along is None:
             return pairs.beside(self, single, self.catalogue)
         selection = along.selected()
-        badly = selection.left > rules.decision.along_motions
+        badly, tried = selection.left > rules.decision.along_motions, None
         if badly:
             pair = pairs.beside(self, single, self.catalogue)
             if pair.base is not None and reaches_noise(pair, rules):
                 return pair
+            tried = pair.further if pair.base is None else None
         best = self._simple_first(single, along, selection)
         if best.base is not None:
             return best
+        if tried is not None and tried.decision.verdict != "tie":       # fewer seconds name more only where these tied
+            return replace(best, further=tried)
         unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
         seconds = unseen if badly or best.named else self.catalogue     # motions have misled, or not shown all
         return pairs.beside(self, best, seconds) if seconds else best

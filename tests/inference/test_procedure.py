@@ -220,7 +220,8 @@ def test_pairs_follow_where_no_set_along_motions_is_named(monkeypatch, left, ver
     """Motions that mislead have judged two of three; where pairs came first, they do not come again."""
     asked, seconds = Asked(None, {}, tuple(CATALOGUE[:3]), Settings(), map), []
     single = SimpleNamespace(decision=SimpleNamespace(verdict=verdict), base=None, weighed=(), null=None,
-                             combinations=(), named=[SimpleNamespace(fit=None)] * (verdict == "missing"))
+                             combinations=(), further=None,
+                             named=[SimpleNamespace(fit=None)] * (verdict == "missing"))
     selection = Selection((), (), (), np.zeros(0), {}, frozenset({0, 1}), left)
     monkeypatch.setattr(procedure.several, "along_motions", lambda *_: SimpleNamespace(selected=lambda *_: selection))
     monkeypatch.setattr(Asked, "together", lambda self, single, selection: single)
@@ -228,3 +229,19 @@ def test_pairs_follow_where_no_set_along_motions_is_named(monkeypatch, left, ver
                         lambda asked, single, catalogue: (seconds.append(len(catalogue)), single)[1])
     asked.along(single, object())
     assert seconds == [3] * (left > DEFAULTS.decision.along_motions) + [tried]
+
+
+@pytest.mark.parametrize("told, again", [("unknown", 0), ("tie", 1)])
+def test_fewer_seconds_are_not_tried_again_unless_all_of_them_tied(monkeypatch, told, again):
+    problem = bench(5, 0.1, stiffness=380.0, extra=cubic)
+    found = diagnose(problem, budget(problem), CATALOGUE[:3])
+    asked, seconds = Asked(None, {}, tuple(CATALOGUE[:3]), Settings(), map), []
+    further = replace(found, decision=replace(found.decision, verdict=told))
+    selection = Selection((), (), (), np.zeros(0), {}, frozenset({0, 1}), 50.0)
+    monkeypatch.setattr(procedure.several, "along_motions", lambda *_: SimpleNamespace(selected=lambda *_: selection))
+    monkeypatch.setattr(procedure, "reaches_noise", lambda *_: False)
+    monkeypatch.setattr(procedure.second_effect, "has_room", lambda *_: True)
+    monkeypatch.setattr(Asked, "together", lambda self, single, selection: single)
+    monkeypatch.setattr(procedure.pairs, "beside", lambda asked, single, catalogue: (
+        seconds.append(len(catalogue)), replace(single, further=further))[1])
+    assert asked.along(found, object()).further is further and seconds == [3] + [1] * again

@@ -4,6 +4,7 @@ import numpy as np
 
 from pipeline.inference.decision.candidate_statistics import unexplained, unfinished
 from pipeline.inference.decision.evidence import evidence
+from pipeline.inference.decision.several_laws import noise_reached
 from pipeline.inference.fitting.effective_sample_size import doubt
 
 #: verdicts that name something
@@ -57,6 +58,15 @@ def matters(pair, explained, rules):
         return gained >= decision.second_share * explained
 
     return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)
+
+
+def bound(first, null, seconds, rules):
+    """The objective without which none of ``seconds`` (Hypotheses) ``matters`` or ``mends`` beside the Weighed
+    ``first``, which is named; ``null``: Fit of the nominal model alone."""
+    decision, fit, explained = rules.decision, first.fit, first.fit.betters(null)
+    beside = any(first.candidate.places & second.places for second in seconds)
+    least = min(decision.second_share, decision.law_error**2) if beside else decision.second_share
+    return max(fit.objective - least * explained, min(noise_reached(fit, rules), fit.objective))
 
 
 def unconfirmed(first, pair, rules):

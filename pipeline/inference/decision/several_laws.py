@@ -74,6 +74,13 @@ def against(null, problem, budget, weighing, rules):
     return replace(weighing, weighed=tuple(of_all(k, w) for k, w in enumerate(weighing.weighed)))
 
 
+def noise_reached(fit, rules):
+    """Objective below which a fit with a further law than a Fit may reach the noise; one of its values may be as far
+    from its prior as any."""
+    counts, priors = fit.counts.sum(), fit.latent @ fit.latent + rules.calibration.excluded**2
+    return (1 + rules.decision.noise_uncertainty) * counts + priors
+
+
 def hoped(null, rules, times=2.0):
     """Objective that a fit has to promise so that it may leave no more than is allowed of the excess error of the Fit
     ``null``; ``times``: priors add to what it leaves."""

@@ -27,13 +27,13 @@ _SEVERAL = 3
 
 
 @instead(lambda error, *_: (None, sentence_of(error)))
-def begun_beside(problem, null, anchor, ahead, offsets, item):
+def begun_beside(problem, null, anchor, ahead, offsets, item, enough=np.inf):
     """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
 
     Where that is not the null, the candidate begins at the values of the null as well, unless these are as far out as
     any may be: then in a large size instead. One of few choices, as of a sign, without which the null is far off,
     begins at the stated values alone: those of the null, and of all its fits to less of the runs, answer to what the
-    wrong choice asks for.
+    wrong choice asks for. It goes no further where it cannot come down to an objective ``enough``.
     """
     candidate, screened_start = item
     if anchor.far and not null.unordered and any(p.discrete for p in candidate.parameters):
@@ -52,7 +52,7 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
     at_null = [] if anchor is null or null.unordered or null.at_limits else [screened_start]
     at_null = _starts(null.latent, at_null) + tone_starts.starts(problem, null, candidate)
     return tried(problem, null, candidate, discrete + starts + at_null,
-                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)
+                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead, enough)
 
 
 def _other_shapes(candidate, start):
@@ -109,7 +109,7 @@ def _starts(base, begins):
 
 
 @instead(lambda error, *_: (None, sentence_of(error)))
-def tried(problem, null, candidate, starts, anchors, ahead=()):
+def tried(problem, null, candidate, starts, anchors, ahead=(), enough=np.inf):
     """(Fit of a candidate after a few iterations from the best of ``starts``, see ``calibration.begun``, "") or (None,
     what went wrong)."""
-    return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""
+    return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead, enough), ""

@@ -167,17 +167,17 @@ def _ended(problem, begins):
         return None
 
 
-def begun(problem, noises, hypothesis, starts, runs, anchors=(), ahead=()):
+def begun(problem, noises, hypothesis, starts, runs, anchors=(), ahead=(), enough=np.inf):
     """The best Fit after a few iterations from each of ``starts``, to be ``continued``.
 
     ``anchors``: for each start the Fit of the nominal hypothesis beside which it lies, whose Jacobians serve at first,
     or None; where that is not far off, no easier problem is needed. Where it is, ``ahead`` are its ``ahead_of``, beside
-    which the easier problems begin.
+    which the easier problems begin. Near ones go no further where they cannot come down to an objective ``enough``.
 
     Raises ConvergenceError where the forward model cannot begin from any.
     """
     reasons = []
-    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, anchors, ahead)
+    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, anchors, ahead, enough)
     if not begins:
         raise _stopped(hypothesis, reasons)
     return begins[0]
@@ -189,20 +189,28 @@ def _stopped(hypothesis, reasons):
 
 
 def ahead_of(problem, anchor):
-    """(Fit, ...) of the hypothesis of the Fit ``anchor``, which is far off, over rising horizons; () where none can."""
+    """(Fit, ...) of the hypothesis of the Fit ``anchor``, which is far off, over rising horizons; () where none can, or
+    where these are no easier."""
+    if not problem.stepped:
+        return ()
     ends = _over_horizons(problem, anchor.noises, anchor.hypothesis, [anchor.latent], anchor.runs, [])
     return tuple(fit if fit.fresh else refreshed(problem, fit) for fit in ends)
 
 
-def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead=()):
+def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead=(), enough=np.inf):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
     residuals = [_residuals(problem, noises, hypothesis, start, runs) for start in starts]
     sizes, nearest = [_mean_square(r) for r in residuals], _distinct(residuals)
     known = [anchor.jacobians if anchor else () for anchor in anchors or [None] * len(starts)]
-    if not ahead and (min(sizes) < FAR or not all(anchor is None or anchor.far for anchor in anchors)):
+    far = min(sizes) >= FAR and all(anchor is None or anchor.far for anchor in anchors)
+    if not ahead and not (far and problem.stepped):
         near = [k for k in nearest if sizes[k] < max(FAR, 2 * min(sizes))][:_NEAREST]
-        fits = _tried(problem, noises, hypothesis, [starts[k] for k in near], runs, reasons, [known[k] for k in near])
-        return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
+        begins, slopes = [starts[k] for k in near], [known[k] for k in near]
+        if far and anchors:
+            others = _other_thresholds(problem, noises, hypothesis, runs, begins[:1], anchors[:1])
+            begins, slopes = begins + others, slopes + slopes[:1] * len(others)
+        fits = _tried(problem, noises, hypothesis, begins, runs, reasons, slopes, enough=enough)
+        return [iterated(problem, fits[0], _TRIAL, enough), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
     nearest = nearest[:_NEAREST - 1]
@@ -213,12 +221,12 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead
     return _tried(problem, noises, hypothesis, near, runs, reasons, [known[nearest[0]]] * len(near))
 
 
-def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
+def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False, enough=np.inf):
     fits = []
     for start, slopes in zip(starts, known or [()] * len(starts), strict=True):
         try:
             begin = linearised(problem, noises, hypothesis, start, runs, slopes)
-            fits.append(iterated(problem, begin, _EASIER if rough else _TRIAL, patient=not rough, rough=rough,
+            fits.append(iterated(problem, begin, _EASIER if rough else _TRIAL, enough, patient=not rough, rough=rough,
                                  frugal=len(slopes) > 0))
         except BrakechainError as error:
             reasons.append(str(error))

@@ -30,7 +30,7 @@ _CENTRAL, _LIGHT, _KEPT = 8, 1e-12, 0.1
 #: share of the tolerance below which the gain of a step is none
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
-_HOPE = 10.0
+HOPE = 10.0
 #: iterations, and the share of the objective that is left after them where a fit of features crawls
 _CRAWLING = ((5, 0.97), (8, 0.7))
 #: noise powers from which on a fit of samples crawls, iterations, and the share of what noise is not that is left after
@@ -144,7 +144,7 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
             if spent() or (not patient and _crawls(state, objectives)) or (rough and _settles(state, objectives)):
                 break
             expected, scale = state.promised, _scale(state)
-            if state.objective - _HOPE * expected > enough or _lags(objectives, enough):
+            if state.objective - HOPE * expected > enough or _lags(objectives, enough):
                 break
             if expected < _tolerance(state, scale, patient):
                 if rough or frugal or state.fresh:
@@ -187,7 +187,7 @@ def _lags(objectives, enough):
     """Whether a fit that is above ``enough`` has come down so little of late that it will not get there."""
     if len(objectives) <= _LATE or objectives[-1] <= enough:
         return False
-    return (objectives[-1 - _LATE] - objectives[-1]) * _HOPE < objectives[-1] - enough
+    return (objectives[-1 - _LATE] - objectives[-1]) * HOPE < objectives[-1] - enough
 
 
 def _settles(state, objectives):

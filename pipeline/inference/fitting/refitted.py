@@ -90,7 +90,7 @@ def finished(problem, null, enough, rules, begin):
     fit = begin if begin.converged else continued(problem, begin, enough=enough, patient=False)
     fit = paired_anew(problem, fit, rules.calibration)
     if not fit.converged and fit.objective > enough:
-        return Refitted(fit, None, "its fit was given up, far from what others reach")
+        return Refitted(fit, None, "its fit was given up, far from what others reach or would matter")
     failure = "" if fit.converged else f"its fit had not converged after {fit.evaluations} predictions"
     return Refitted(fit, _null_again(problem, null, fit, rules.refit), failure)
 

@@ -43,15 +43,16 @@ _FAR_OUT = 2.0
 _LIKELY = 4
 
 
-def refit_catalogue(screening, catalogue, settings, fan_out, results=None, beside_a_first=False):
-    """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook, beside earlier
-    ``results``."""
+def refit_catalogue(screening, catalogue, settings, fan_out, earlier=None, beside_a_first=False, bound=np.inf):
+    """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook, beside those of
+    ``earlier`` Refits of the first of the ``catalogue``; of those alone that can come down to an objective ``bound``.
+    """
     calibration, starts = screening.calibration, screening.screen.start
-    refitter = Refitter.about(calibration, catalogue, settings, fan_out)
+    refitter, results = Refitter.about(calibration, catalogue, settings, fan_out, bound), earlier and earlier.results
     if results and refitter.explained(results):     # what may do as well begins at the values that the best asks for
-        results = refitter.with_imitators(results, starts)
+        results = refitter.with_imitators(results, starts, len(earlier.directions))
     else:
-        results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
+        results = refitter.best_of(screening, results or {}, beside_a_first)
     if not refitter.overtaken(results):
         results = refitter.settled(refitter.with_overlooked(screening, results))
         refitter, screening, results = refitter.widened(screening, results)
@@ -84,31 +85,39 @@ def refit_from(screening, catalogue, results, settings, fan_out):
 @dataclass(frozen=True)
 class Refitter:
     """Fits candidates of a ``catalogue`` (Hypothesis, ...) beside the Fit ``null`` of the nominal hypothesis, by the
-    ``settings`` of ``procedure``."""
+    ``settings`` of ``procedure``; fits are given up that cannot come down to the objective ``bound``."""
 
     problem: Problem
     null: Fit
     catalogue: tuple
     settings: Any
     fan_out: FanOut
+    bound: float = np.inf
 
     @classmethod
-    def about(cls, calibration, catalogue, settings, fan_out):
+    def about(cls, calibration, catalogue, settings, fan_out, bound=np.inf):
         """Refitter beside the null of a Calibration."""
-        return cls(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
+        return cls(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out, bound)
 
     @property
     def rules(self) -> Rules:
         return self.settings.rules
 
-    def best_of(self, promising, starts, results, beside_a_first=False):
-        """{index: Refitted} of ``results``, the best few ``promising`` ones and their imitators, else all of them.
+    def best_of(self, screening, results, beside_a_first=False):
+        """{index: Refitted} of ``results``, the best few of those that a Screening promises and their imitators, else
+        all of them.
 
-        All begin only where the linearisation of the null may fail and none of the first few explains enough;
+        Where the first explains enough, others begin only if they may come near it. All begin only where the
+        linearisation of the null may fail and none of the first few explains enough;
         ``beside_a_first`` effect, which has taken up what is far from linear, the likely ones.
         """
-        kept, rules = self.settings.kept, self.rules.decision
-        results = self.of(promising[:kept], starts, results)
+        kept, rules, starts = self.settings.kept, self.rules.decision, screening.screen.start
+        promising = screening.hopeful(self.bound)
+        results, others = self.of(promising[:1], starts, results), promising[1:kept]
+        if self.explained(results):
+            near = screening.hopeful(self._enough(results.values()))
+            others = [i for i in others if i in near]
+        results = self.of(others, starts, results)
         if self.overtaken(results):
             return results
         results = self._rivalled(results, starts, beside_a_first)
@@ -144,7 +153,8 @@ class Refitter:
         """
         if not len(chosen):
             return results or {}
-        begin = partial(begun_beside, self.problem, self.null, self.anchor, self.ahead, self.settings.starts)
+        begin = partial(begun_beside, self.problem, self.null, self.anchor, self.ahead, self.settings.starts,
+                        enough=self.bound)
         items = [(self.catalogue[i], starts[i]) for i in chosen]
         return self._ended(chosen, self.fan_out(begin, items), results or {})
 
@@ -184,20 +194,23 @@ class Refitter:
         evidences = evidence_of_all(self.null, screening.directions, fits, self.settings)
         return self.of(evidences.overlooked(self.rules.decision)[:self.settings.kept], screening.screen.start, results)
 
-    def with_imitators(self, results, starts):
+    def with_imitators(self, results, starts, looked_at=0):
         """{index: Refitted} once others have begun at the nominal values that the best of ``results`` asks for.
 
         A nominal model that has to make up for what is missing is off its true values, and what moves as the best
-        candidate does may score little beside it.
+        candidate does may score little beside it. So many first ones of the catalogue were ``looked_at`` beside the
+        best of them.
         """
         for _ in range(_ROUNDS):
             top = leader(results)
             if top is None or not self._explains(results[top].fit) or spent():
                 break
             with suppress(TimeSpentError):
-                results = self._with_limits(top, self._beside(top, starts, results))
+                seen = looked_at if top < looked_at else 0
+                results = self._with_limits(top, self._beside(top, starts, results, seen))
             if leader(results) == top:
                 break
+            looked_at = 0
         return results
 
     def _with_limits(self, top, results):
@@ -287,22 +300,26 @@ class Refitter:
     def _explains(self, fit):
         return fit.weights.max() * fit.betters(self.null) > 2 * self.rules.decision.evidence_gain
 
-    def _beside(self, top, starts, results):
-        """Results with those of the imitators of candidate ``top``, shaped as it or as at ``starts``, where better."""
+    def _beside(self, top, starts, results, seen=0):
+        """Results with those of the imitators of candidate ``top``, shaped as it or as at ``starts``, where better;
+        so many first ones of the catalogue were ``seen`` beside it."""
         size, fit = len(self.null.latent), results[top].fit
         anchor = linearised(self.problem, self.null.noises, self.problem.nominal, fit.latent[:size], self.null.runs)
         like = {short_name(p): fit.values[p.name] for p in fit.hypothesis.parameters[size:]}
         look = partial(directions_like, self.problem, anchor, like)
-        scores = screen(anchor, list(self.fan_out(look, zip(self.catalogue, starts, strict=True))), draws=0,
+        looked_at = [top] + [i for i in range(seen, len(self.catalogue)) if i != top]
+        scores = screen(anchor, list(self.fan_out(look, [(self.catalogue[i], starts[i]) for i in looked_at])), draws=0,
                         rules=self.rules.screening)
-        enough = self.rules.refit.imitates * scores.score[top]**2
-        imitators = [i for i in scores.order() if i != top and scores.score[i] > 0
-                     and scores.score[i]**2 >= enough][:self.settings.kept]
+        score, start = (dict(zip(looked_at, each, strict=True)) for each in (scores.score, scores.start))
+        enough = self.rules.refit.imitates * score[top]**2
+        alike = sum(not self._short_of(fit, r) for i, r in results.items() if i < seen and i != top)
+        imitators = [looked_at[k] for k in scores.order() if k and scores.score[k] > 0
+                     and scores.score[k]**2 >= enough][:max(self.settings.kept - alike, 1)]
         begin = partial(begun_at, self.problem, anchor)
-        refitted = self._ended(imitators, self.fan_out(begin, [(self.catalogue[i], scores.start[i])
-                                                               for i in imitators]), {top: results[top]})
-        alike = [i for i in imitators if scores.score[i]**2 >= self.rules.refit.moves_alike * scores.score[top]**2]
-        return self._led_over(top, scores.start, alike, lowest(results, refitted))
+        refitted = self._ended(imitators, self.fan_out(begin, [(self.catalogue[i], start[i]) for i in imitators]),
+                               {top: results[top]})
+        alike = [i for i in imitators if score[i]**2 >= self.rules.refit.moves_alike * score[top]**2]
+        return self._led_over(top, start, alike, lowest(results, refitted))
 
     def _led_over(self, top, starts, alike, results):
         """Results with those of candidates that move ``alike``, at other places, begun where they change next to
@@ -354,13 +371,13 @@ class Refitter:
             order = sorted(fits, key=lambda i: fits[i].objective)[:max(kept, (len(fits) + 1) // 2)]
             if len(order) <= kept or fits[order[0]].unordered or fits[order[0]].reaches_noise(uncertainty):
                 return {i: fits[i] for i in order[:kept]}
-            go_on = partial(advanced, self.problem, self._near(fits[order[0]]))
+            go_on = partial(advanced, self.problem, min(self.bound, self._near(fits[order[0]])))
             fits = dict(zip(order, self.fan_out(go_on, [fits[i] for i in order]), strict=True))
 
     def _enough(self, results):
         """The objective to which candidates must be able to come down: near the best, as evidence is tempered."""
         best = min((r.fit for r in results if r.fit is not None), key=lambda fit: fit.objective, default=None)
-        return np.inf if best is None else self._near(best)
+        return self.bound if best is None else min(self.bound, self._near(best))
 
     def _short_of(self, best, refitted):
         """Whether a Refitted has no fit that comes near the Fit ``best``."""

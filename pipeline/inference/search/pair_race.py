@@ -62,11 +62,12 @@ def race(problem, budget, single, catalogue, settings, fan_out):
     that a second law has to.
     """
     simple = tuple(c for c in catalogue if c.kind == "physics" and not c.elaborate)
-    enough, pairs, told = several_laws.hoped(single.null, settings.rules), [], []
+    enough, pairs, told, bound = several_laws.hoped(single.null, settings.rules), [], [], np.inf
     for tied in single.named:
         enough = min(enough, tied.fit.objective - settings.rules.decision.second_share * tied.fit.betters(single.null))
+        bound = max(enough, several_laws.noise_reached(tied.fit, settings.rules))
     for first in firsts(single, settings.rules):
-        found = [pair for pair in _beside(problem, budget, single.null, simple, settings, fan_out, first)
+        found = [pair for pair in _beside(problem, budget, single.null, simple, settings, fan_out, first, bound)
                  if set(pair.names) not in told]
         best = min(found, key=lambda pair: pair.fit.objective, default=None)
         if best and best.fit.reaches_noise(settings.rules.decision.noise_uncertainty):
@@ -101,16 +102,17 @@ def firsts(single, rules):
 
 
 @instead(lambda error, *_: [])
-def _beside(problem, budget, null, catalogue, settings, fan_out, first):
-    """[Pair] of the Weighed ``first`` and those of a ``catalogue`` that promise most beside it."""
+def _beside(problem, budget, null, catalogue, settings, fan_out, first, bound):
+    """[Pair] of the Weighed ``first`` and those of a ``catalogue`` that promise most beside it, and may come down to an
+    objective ``bound``."""
     known = first.refined
     given, others = problem.given(known), tuple(c for c in catalogue if not c.excludes(known))
     base = linearised(given, null.noises, given.nominal, first.fit.latent, null.runs)
     screening = screen_catalogue(Calibration(given, budget, base), others, settings, fan_out, True)
     refitter, start = Refitter.about(screening.calibration, others, settings, fan_out), screening.screen.start
-    begin = partial(begun_beside, given, base, refitter.anchor, refitter.ahead, settings.starts)
-    chosen = screening.promising[:_SECONDS]
+    begin = partial(begun_beside, given, base, refitter.anchor, refitter.ahead, settings.starts, enough=bound)
+    chosen = screening.hopeful(bound)[:_SECONDS]
     begun = {i: fit for i, (fit, _) in zip(chosen, fan_out(begin, [(others[i], start[i]) for i in chosen]), strict=True)
              if fit is not None}
-    fits = fan_out(partial(advanced, given, np.inf, iterations=_LAPS), list(begun.values()))
+    fits = fan_out(partial(advanced, given, bound, iterations=_LAPS), list(begun.values()))
     return [Pair(known, others[i], fit) for i, fit in zip(begun, fits, strict=True)]

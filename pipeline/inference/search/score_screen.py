@@ -19,6 +19,7 @@ from pipeline.contract.errors import instead, sentence_of
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
+from pipeline.inference.fitting.least_squares import HOPE
 from pipeline.inference.rules import DEFAULTS
 
 #: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice
@@ -94,6 +95,12 @@ class Screening:
     directions: tuple
     screen: Screen
     promising: tuple
+
+    def hopeful(self, bound):
+        """Those that may bring the objective down to ``bound``, by what their scores promise or by some times that, as
+        a linearisation says little far off."""
+        objective, score = self.calibration.null.objective, np.maximum(self.screen.score, 0.0)
+        return tuple(i for i in self.promising if objective - HOPE * score[i]**2 <= bound)
 
 
 def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=False, known=()):

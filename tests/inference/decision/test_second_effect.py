@@ -48,6 +48,33 @@ def test_at_the_place_of_the_first_a_faint_one_may_be_an_error_of_its_law(solved
     assert second_effect.matters(beside, second.fit.betters(null) / share, DEFAULTS) is matters
 
 
+def at_objective(fit, objective):
+    """A Fit whose latent values stay, and whose residuals are as large as they have to be."""
+    size = np.sqrt((objective - fit.latent @ fit.latent) / fit.counts.sum())
+    return replace(fit, residuals=tuple(np.full(n, size) for n in fit.counts))
+
+
+@pytest.mark.parametrize("place", ["here", "there"])
+@pytest.mark.parametrize("left", [1.02, 1.5, 40.0])
+def test_no_second_effect_above_the_bound_matters(solved, place, left):
+    """``left`` by the first in noise powers; the second takes more and more off."""
+    pair, (second,) = solved[0], solved[0].named
+    counts = pair.null.counts.sum()
+    known = replace(pair.null.hypothesis, effects=(("first", place),))
+    null = at_objective(replace(pair.null, hypothesis=known), left * counts)
+    beside = replace(pair, calibration=replace(pair.calibration, null=null))
+    first = SimpleNamespace(candidate=known, fit=null)
+    bound = second_effect.bound(first, at_objective(null, 500 * counts), [second.candidate], DEFAULTS)
+    mattered = []
+    for objective in np.linspace(0.3 * counts, null.objective, 60):
+        fit = at_objective(second.fit, objective)
+        told = replace(beside, weighing=replace(beside.weighing, weighed=(replace(second, fit=fit),)))
+        if second_effect.matters(told, (500 - left) * counts, DEFAULTS):
+            mattered.append(objective)
+    assert bound <= null.objective and all(objective <= bound for objective in mattered)
+    assert mattered or left < 40
+
+
 @pytest.mark.parametrize("place, away, share, of_another_form", [
     ("here", 0.4, 5e-3, True), ("here", 3.0, 5e-3, False), ("here", 0.4, 1e-3, False), ("there", 0.4, 5e-3, False)])
 def test_a_first_law_that_values_of_nothing_mend_at_its_place_is_of_another_form(solved, place, away, share,

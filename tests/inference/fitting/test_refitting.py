@@ -41,7 +41,7 @@ def found():
 def begun(monkeypatch, name="begun_beside"):
     """Names of candidates that begin, in order."""
     seen, begun = [], getattr(refitting, name)
-    monkeypatch.setattr(refitting, name, lambda *given: seen.append(given[-1][0].name) or begun(*given))
+    monkeypatch.setattr(refitting, name, lambda *given, **more: seen.append(given[-1][0].name) or begun(*given, **more))
     return seen
 
 

@@ -54,14 +54,18 @@ def test_only_simple_laws_of_physics_run(monkeypatch):
 @pytest.mark.parametrize("left, wins", [(102.0, False), (101.0, True)])
 def test_beside_laws_that_tie_a_pair_has_to_explain_more_than_one_of_them(monkeypatch, left, wins):
     """Of 1000 above the noise the tied law leaves 110; a second one has to take a hundredth of 890 off."""
-    fit, pair = (SimpleNamespace(objective=o, reaches_noise=lambda _: False) for o in (110.0, left))
+    fit, pair = (SimpleNamespace(objective=o, reaches_noise=lambda _: False, counts=np.array([20]),
+                                 latent=np.ones(2)) for o in (110.0, left))
+    bounds = []
     monkeypatch.setattr(pair_race, "firsts", lambda *_: ["first"])
-    monkeypatch.setattr(pair_race, "_beside", lambda *_: [pair_race.Pair(*CATALOGUE[:2], pair)])
+    monkeypatch.setattr(pair_race, "_beside", lambda *given: bounds.append(given[-1]) or [
+        pair_race.Pair(*CATALOGUE[:2], pair)])
     monkeypatch.setattr(pair_race, "advanced", lambda problem, enough, fit, iterations: fit)
     fit.betters = lambda null: null.objective - fit.objective
     null = SimpleNamespace(counts=np.array([60]), chi_square=np.array([1060.0]), objective=1000.0)
     tie = SimpleNamespace(null=null, named=(SimpleNamespace(fit=fit),))
     assert bool(list(race(None, None, tie, CATALOGUE, Settings(), map))) is wins
+    assert bounds == [pytest.approx(110.0 - 0.01 * 890)], "the noise is at 21, and priors"
 
 
 def weighed(name, gain, law="", **more):
