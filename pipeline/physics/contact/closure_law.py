@@ -10,10 +10,10 @@ Beyond the last row of the table its last slope continues.
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def pressure_at(closure, closures, pressures, first=0):
     """(p in Pa, dp/dc in Pa/m) of a table ``closures`` (k,) m, from 0, and ``pressures[first:first + k]`` Pa."""
     if closure <= 0.0:
@@ -30,7 +30,7 @@ def pressure_at(closure, closures, pressures, first=0):
     return pressures[row] + slope * (closure - closures[low]), slope
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def table_law(closure, rate, area, closures, pressures, first, damping_speed):
     """(N, dN/dc in N/m, dN/dc' in N s/m) of a contact of ``area`` m^2 at ``closure`` m and closing ``rate`` m/s.
 
@@ -42,7 +42,7 @@ def table_law(closure, rate, area, closures, pressures, first, damping_speed):
     return damped(area * pressure, area * slope, rate, damping_speed)
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def damped(force, stiffness, rate, damping_speed):
     """(N, dN/dc, dN/dc') of a contact that carries ``force`` N, rising by ``stiffness`` N/m, where it is not moving."""
     factor = 1.0 + rate / damping_speed
@@ -51,7 +51,7 @@ def damped(force, stiffness, rate, damping_speed):
     return force * factor, stiffness * factor, force / damping_speed
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def penalty_law(closure, rate, stiffness, damping):
     """(N, dN/dc, dN/dc') of a spring and damper, ``stiffness`` N/m and ``damping`` N s/m."""
     force = stiffness * closure + damping * rate

@@ -20,7 +20,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, parts, read
 from pipeline.physics.friction.friction_table import AXES, FrictionLaw, friction_at
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 
 RIGID, ELASTIC, EVOLUTION = 0, 1, 2
 DESCRIPTIONS = {"rigid": RIGID, "elastic": ELASTIC, "evolution": EVOLUTION}
@@ -189,7 +189,7 @@ def coefficients(friction, speed, pressure):
     return values
 
 
-@njit
+@borrowing
 def coefficient(friction, i, pressure, speed, sign):
     """mu of contact ``i`` at a pressure and a slip speed whose sign counts as ``sign``."""
     if friction.table.size == 1:
@@ -198,7 +198,7 @@ def coefficient(friction, i, pressure, speed, sign):
     return characteristic(friction, i, pressure, speed, friction.contact[i, READ_AT], sign)[0]
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def characteristic(friction, i, pressure, speed, distance, sign):
     """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m, outside) of contact ``i`` of a FrictionKernel.
 
@@ -215,7 +215,7 @@ def characteristic(friction, i, pressure, speed, distance, sign):
     return factor * mu, factor * by_pressure, factor * contact[i, SPEED_SHARE] * by_speed, outside
 
 
-@njit
+@borrowing
 def elastic_stick(force, slip, limit, stiffness):
     """(T, dT/ds) after a slip increment from ``force``: a spring that slides at the limit."""
     trial = force + stiffness * slip
@@ -224,7 +224,7 @@ def elastic_stick(force, slip, limit, stiffness):
     return np.sign(trial) * limit, 0.0
 
 
-@njit
+@borrowing
 def evolution_rule(force, slip, limit, stiffness, exponent):
     """(T, dT/ds) after a slip increment from ``force``: dT/ds = k (1 - T sgn(s) / L)^m integrated exactly.
 

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 
 AXES = ("pressure", "speed", "distance")
 
@@ -106,7 +106,7 @@ def refine(axes, values, subdivisions):
     return fine_axes, np.array(values, dtype=float)
 
 
-@njit
+@borrowing
 def _locate(axis, value):
     """Interval (low, high), weight of its end, 1 / length, and 1 if the value was clipped."""
     last = axis.size - 1
@@ -125,7 +125,7 @@ def _locate(axis, value):
     return low, low + 1, (value - axis[low]) / length, 1.0 / length, 0
 
 
-@njit
+@borrowing
 def friction_at(pressure, speed, distance, pressures, speeds, distances, table, first=0):
     """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m, outside) at one state.
 
@@ -141,7 +141,7 @@ def friction_at(pressure, speed, distance, pressures, speeds, distances, table, 
     return mu, slope_p, slope_v, 1 if outside_p + outside_v + outside_s > 0 else 0
 
 
-@njit
+@borrowing
 def mean_friction_at(pressure, speed, distance, share, pressures, speeds, distances, table, first):
     """(mu, dmu/dpressure, dmu/dspeed): those of ``friction_at``, mean over ``distance`` (d,) m by ``share`` (d,).
 
@@ -161,7 +161,7 @@ def mean_friction_at(pressure, speed, distance, share, pressures, speeds, distan
     return _over_pressure_and_speed((m00, m01, m10, m11), wp, ip, wv, iv)
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _over_distance(table, p0, p1, v0, v1, s0, s1, weight):
     """Values at the corners (pressure, speed) of a cell, interpolated over distance."""
     return (table[p0, v0, s0] * (1.0 - weight) + table[p0, v0, s1] * weight,
@@ -170,7 +170,7 @@ def _over_distance(table, p0, p1, v0, v1, s0, s1, weight):
             table[p1, v1, s0] * (1.0 - weight) + table[p1, v1, s1] * weight)
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _over_pressure_and_speed(corners, wp, ip, wv, iv):
     """(mu, dmu/dpressure, dmu/dspeed) from the corners of a cell."""
     m00, m01, m10, m11 = corners

@@ -12,7 +12,7 @@ from rest it is F_0 (1 + a ln(v / v_0) + b ln(v_0 theta / D_c)). States are exac
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing
 
 #: reference speed v_0 of rate-and-state friction, m/s
 REFERENCE_SPEED = 1e-6
@@ -20,7 +20,7 @@ REFERENCE_SPEED = 1e-6
 _LARGE = 20.0
 
 
-@njit
+@borrowing
 def presliding(moved, rate, remembered, memory, p):
     """F in N after ``moved`` m, at ``rate`` m/s; ``memory`` (2,) gets y and the rate.
 
@@ -36,13 +36,13 @@ def presliding(moved, rate, remembered, memory, p):
     return p[0] * (memory[0] + p[4] * change) + p[5] * rate
 
 
-@njit
+@borrowing
 def settled(speed):
     """psi in steady sliding at ``speed`` m/s, of either sign, at least the reference speed."""
     return -np.log(max(abs(speed), REFERENCE_SPEED) / REFERENCE_SPEED)
 
 
-@njit
+@borrowing
 def rate_state(rate, time, remembered, memory, p):
     """F in N at ``rate`` m/s and ``time`` s; ``memory`` (3,) gets psi, the time and the speed; speed 0: not yet begun.
 
@@ -61,7 +61,7 @@ def rate_state(rate, time, remembered, memory, p):
     return p[0] * p[1] * value * np.sign(rate)
 
 
-@njit
+@borrowing
 def _aged(psi, speed, passed, length, slip_law):
     """psi after ``passed`` s at a constant ``speed`` m/s."""
     way = speed * passed / length
@@ -73,7 +73,7 @@ def _aged(psi, speed, passed, length, slip_law):
     return np.log(np.exp(psi - way) + REFERENCE_SPEED * passed / length * share)
 
 
-@njit
+@borrowing
 def positional(elongation, rate, p):
     """F in N; ``p``: F_c N, gradient g 1/m, creep m/s."""
     if rate == 0.0:

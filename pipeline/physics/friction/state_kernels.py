@@ -18,7 +18,7 @@ from pipeline.physics.friction.dry_friction import (
     SPEED_KEPT,
     SPEED_SHARE,
 )
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing
 
 MEMORY, HEALING, DISTANCE, FILM, FADE, PLATEAUS, SCATTER = range(7)
 #: below this a rate times a step counts as none, where series replace quotients
@@ -37,7 +37,7 @@ class StateKernel(NamedTuple):
     begin: np.ndarray       # (c,) m, distance where the table is read first
 
 
-@njit
+@borrowing
 def source_and_rate(kind, p, load, area, speed, drawn):
     """(s, r) of a state under a load N, at a slip speed >= 0, with the friction force ``drawn`` >= 0 N."""
     if kind == HEALING:
@@ -53,7 +53,7 @@ def source_and_rate(kind, p, load, area, speed, drawn):
     return 0.0, 0.0
 
 
-@njit
+@borrowing
 def factor(kind, p, x, angle):
     """What a state makes of friction; 1 where it does not act as a factor."""
     if kind == HEALING:
@@ -82,14 +82,14 @@ def factor_slope(kind, p, x):
     return p[0] / (1.0 + x) / (1.0 + p[0] * np.log1p(x)) if kind == HEALING else 1.0 / x
 
 
-@njit
+@borrowing
 def _kept(reach):
     """(e^-z, (1 - e^-z) / z) of z = ``reach``: what is left of a state, and the mean of that."""
     keep = np.exp(-reach)
     return keep, (1.0 - keep) / reach if reach > _SMALL else 1.0 - 0.5 * reach
 
 
-@njit
+@borrowing
 def expect(states, value, friction, load, slip, drawn, angle, turned, step, middle):
     """Fill the columns of ``friction`` for the step to come, from states ``value`` (k, 2) and forces at its begin.
 
@@ -123,7 +123,7 @@ def expect(states, value, friction, load, slip, drawn, angle, turned, step, midd
                             + share * factor(kind, p, after, turned))
 
 
-@njit
+@borrowing
 def settle(states, value, load, loaded, slip, slipped, drawn, step):
     """Bring states ``value`` (k, 2) to the end of a step.
 

@@ -22,6 +22,12 @@ def njit(function=None, **options):
     return Kernel(function, options)
 
 
+def borrowing(function=None, **options):
+    """``njit`` for kernels that make no arrays: references to those that they are handed are not counted, which costs
+    more than the work of small ones."""
+    return njit(function, _nrt=False, **options)
+
+
 class Kernel:
     """A function that numba compiles, at its first call, for the types of the arguments."""
 

@@ -31,7 +31,7 @@ from pipeline.physics.friction.dry_friction import (
     coefficient,
     evolution_rule,
 )
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing
 
 HARD, PENALTY, TABLE, LAGRANGE = 0, 1, 2, 3
 OPEN, STICK, SLIP = 0, 1, 2
@@ -78,7 +78,7 @@ class ContactStep(NamedTuple):
     before: np.ndarray      # (c,) work: status at the begin, SLIP once a contact has broken loose
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def yielding_force(law, i, closure, rate):
     """(N, dN/dclosure, dN/drate) of contact i of a NormalKernel, penalty or table."""
     if law.kind == PENALTY or law.first[i] < 0:
@@ -86,7 +86,7 @@ def yielding_force(law, i, closure, rate):
     return table_law(closure, rate, law.area[i], law.closure, law.pressure, law.first[i], law.damping_speed[i])
 
 
-@njit
+@borrowing
 def solve_contacts(law, friction, response, step):
     """(code, contact) after solving for force and status of a ContactStep.
 
@@ -130,14 +130,14 @@ def solve_contacts(law, friction, response, step):
     return UNCONVERGED, where
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _own_response(response, i):
     """Pairs (to N, to T) of the four observables of contact i: tuples, which cost nothing to pass."""
     return ((response[0, 0, i, i], response[0, 1, i, i]), (response[1, 0, i, i], response[1, 1, i, i]),
             (response[2, 0, i, i], response[2, 1, i, i]), (response[3, 0, i, i], response[3, 1, i, i]))
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _solve_contact(law, friction, i, y, r, past, held, drive, way, guess, before, active):
     """(N, T, status, code) of contact i, its observables without its own forces being ``y``."""
     if law.kind == HARD and not active:
@@ -147,7 +147,7 @@ def _solve_contact(law, friction, i, y, r, past, held, drive, way, guess, before
     return _yielding(law, friction, i, y, r, past, held, drive, way, guess, before)
 
 
-@njit
+@borrowing
 def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Sticks if the force that ends the slip (forward increments: allows none) stays below the limit, else slides."""
     share, kept = _mean_load(law, friction, i, held)
@@ -172,7 +172,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     return _sliding(law, friction, i, y, r, past, drive, (share, kept), sign, guess[0])
 
 
-@njit
+@borrowing
 def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
     """(N, T, status, code) of a contact that slides against the ``sign`` of its friction.
 
@@ -211,7 +211,7 @@ def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
     return 0.0, 0.0, OPEN, UNCONVERGED
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _read(law, friction, i, y, r, past, drive, loads, sign, tried, end):
     """(N, coefficient at the slip to which the ``end`` of the step counts so much, that slip, code) of a step under the
     coefficient and about the N ``tried``."""
@@ -223,7 +223,7 @@ def _read(law, friction, i, y, r, past, drive, loads, sign, tried, end):
     return normal, coefficient(friction, i, (kept + share * normal) / law.area[i], abs(slip), sign), slip, code
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _mean_load(law, friction, i, held):
     """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
     if friction.contact[i, DELAYED] > 0.0:
@@ -233,7 +233,7 @@ def _mean_load(law, friction, i, held):
     return 0.5, 0.5 * held[0]
 
 
-@njit
+@borrowing
 def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Friction that is a function of the slip of the step, by Newton's method on T, N following T."""
     stiffness, tangent = friction.contact[i, STIFFNESS], guess[1]
@@ -262,7 +262,7 @@ def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     return 0.0, 0.0, OPEN, UNCONVERGED
 
 
-@njit
+@borrowing
 def _drawn(friction, i, begin, slip, load, pressure, speed, before):
     """(T, dT/dslip, slides) of the elastic or the evolution description."""
     stiffness = friction.contact[i, STIFFNESS]
@@ -279,7 +279,7 @@ def _drawn(friction, i, begin, slip, load, pressure, speed, before):
     return np.sign(trial) * coefficient(friction, i, pressure, speed, trial) * load, 0.0, True
 
 
-@njit
+@borrowing
 def _normal(law, i, y, r, past, fixed, slope, guess):
     """(N, code) of the normal law where the friction force is fixed + slope N."""
     if law.fixed[i] >= 0.0:

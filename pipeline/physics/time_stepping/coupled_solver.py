@@ -7,7 +7,7 @@ the gap of its contact.
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 from pipeline.physics.time_stepping.contact_solver import SOLVED, solve_contacts
 from pipeline.physics.time_stepping.element_forces import (
     MAXWELL,
@@ -21,7 +21,7 @@ from pipeline.physics.time_stepping.element_forces import (
 ROUNDS = 200
 
 
-@njit
+@borrowing
 def surface_shift(waviness, instant, shift):
     """Fill ``shift`` (2, c): what waviness adds to the gap and the opening rate of each contact."""
     shift[:] = 0.0
@@ -36,7 +36,7 @@ def surface_shift(waviness, instant, shift):
         shift[1, contact] += grown * speed + growing * height
 
 
-@njit
+@borrowing
 def recede(worn, pace, step, shift):
     """Add to ``shift`` (2, c) the depth ``worn`` (c,) m that a step (s) begins with, going on at ``pace`` (c,) m/s."""
     for i in range(pace.size):
@@ -44,7 +44,7 @@ def recede(worn, pace, step, shift):
         shift[1, i] += pace[i]
 
 
-@njit
+@borrowing
 def advance_wear(wear, force, drive, speed, step, worn, pace):
     """Wear over a step, by the trapezoidal rule: fill ``worn`` (c,) m and ``pace`` (c,) m/s = wear N |slip| at its end.
 
@@ -64,7 +64,7 @@ def first_forces(laws, motion, memory, force, instant):
         force[k] = element_force(laws, k, motion[0, k], motion[1, k], motion[0, k], memory, unchanged, instant)[0]
 
 
-@njit
+@borrowing
 def solve_together(law, friction, response, elements, laws, contacts, step, free, status, instant):
     """(code, number): forces of contacts and elements at the end of a step, as ``solve_contacts``.
 
@@ -106,7 +106,7 @@ def solve_together(law, friction, response, elements, laws, contacts, step, free
     return UNSETTLED, 0
 
 
-@njit
+@borrowing
 def motion_at_end(response, step):
     """Fill the elongation and rate at the end: those without the element forces, and what the forces add."""
     for k in range(step.force.size):
@@ -117,7 +117,7 @@ def motion_at_end(response, step):
             step.end[o, k] = total
 
 
-@njit
+@borrowing
 def element_work(begin, end, force_begin, force_end):
     """Work (J) of the elements on the bodies over a step: mean force times change of the elongation."""
     total = 0.0
@@ -126,7 +126,7 @@ def element_work(begin, end, force_begin, force_end):
     return total
 
 
-@njit
+@borrowing
 def shift_work(begin, end, held, force, holds):
     """What the moving surface adds to the work of the normal forces over a step; it does not reach the bodies."""
     total = 0.0
@@ -136,7 +136,7 @@ def shift_work(begin, end, held, force, holds):
     return total
 
 
-@njit
+@borrowing
 def angle_after(angle, speed_begin, speed_end, step):
     """Angle of the drive after a step over which its speed is linear."""
     return angle + 0.5 * step * (speed_begin + speed_end)

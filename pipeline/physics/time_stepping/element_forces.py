@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pipeline.physics.friction.joint_friction import positional, presliding, rate_state
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, SOLVED
 
 POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
@@ -99,7 +99,7 @@ def laws_of(kernel):
     return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.response)
 
 
-@njit
+@borrowing
 def wave(amplitude, order, frequency, phase, instant):
     """(u, u') at ``instant``: (time s, angle rad and speed rad/s of the drive)."""
     time, angle, turning = instant
@@ -108,7 +108,7 @@ def wave(amplitude, order, frequency, phase, instant):
             -amplitude * (order * turning + 2 * np.pi * frequency) * np.sin(argument))
 
 
-@njit
+@borrowing
 def element_force(kernel, k, elongation, rate, begin, remembered, memory, instant):
     """(F, dF/de, dF/dv) of element ``k``; ``memory`` (s,) is filled with what it remembers at the end.
 
@@ -168,7 +168,7 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
     return -(p[0] * height + p[1] * speed), 0.0, 0.0
 
 
-@njit
+@borrowing
 def _stop(elongation, rate, p):
     """(F, dF/de, dF/dv) of stops."""
     beyond = max(0.0, elongation - p[3]) + min(0.0, elongation + p[2])
@@ -176,7 +176,7 @@ def _stop(elongation, rate, p):
     return (force, p[0], p[1]) if force * beyond > 0.0 else (0.0, 0.0, 0.0)
 
 
-@njit
+@borrowing
 def _friction(kind, elongation, rate, moved, remembered, memory, p, time):
     """(F, 0, 0) of friction, which has no slope of use where it turns."""
     if kind == PRESLIDING:
@@ -186,7 +186,7 @@ def _friction(kind, elongation, rate, moved, remembered, memory, p, time):
     return positional(elongation, rate, p), 0.0, 0.0
 
 
-@njit
+@borrowing
 def update_turning_dampers(kernel, friction, slip, rate):
     """Set the damping of all ``turning`` elements by friction forces and slip speeds (c,), and their own rates (e,).
 
@@ -203,7 +203,7 @@ def update_turning_dampers(kernel, friction, slip, rate):
                 p[2] = STRONGEST_TURNING / mobile
 
 
-@njit
+@borrowing
 def _maxwell(kernel, start, clock, moved, remembered, memory, time):
     """(F, dF/de) of the branches ``start:clock`` after ``moved`` m; exact where the rate is constant over the step."""
     passed, force, slope = time - remembered[clock], 0.0, 0.0
@@ -217,12 +217,12 @@ def _maxwell(kernel, start, clock, moved, remembered, memory, time):
     return force, slope
 
 
-@njit
+@borrowing
 def _bouc_wen_slope(z, way, size, exponent, shape):
     return 1.0 - (abs(z) / size) ** exponent * (shape + (1.0 - shape) * np.sign(z * way))
 
 
-@njit
+@borrowing
 def _bouc_wen(z, way, size, exponent, shape):
     """(z, dz/de) after ``way`` m, by classical Runge-Kutta steps over a quarter of the size at most."""
     way = min(max(way, -FORGOTTEN * size), FORGOTTEN * size)
@@ -237,7 +237,7 @@ def _bouc_wen(z, way, size, exponent, shape):
     return z, _bouc_wen_slope(z, way, size, exponent, shape)
 
 
-@njit
+@borrowing
 def solve_elements(laws, step, instant):
     """(code, element) after solving for force and memory of an ElementStep with ``pressed`` as it stands.
 
@@ -272,7 +272,7 @@ def solve_elements(laws, step, instant):
     return UNSETTLED, where
 
 
-@njit(inline="always")
+@borrowing(inline="always")
 def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
     """(F, its rounding, code) of element ``k``, from elongation and rate without its own force."""
     give, mobile, force = laws.response[0, k, k], laws.response[1, k, k], guess
@@ -295,7 +295,7 @@ def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, mem
     return 0.0, 0.0, UNSETTLED
 
 
-@njit
+@borrowing
 def _solve_rigid(laws, k, rate_free, memory_begin, memory, guess):
     """The same of rigid dry friction in the state that ``memory_begin`` says: at rest, or sliding whatever its rate."""
     p, start, mobile = laws.parameter[k], laws.first[k], laws.response[1, k, k]
@@ -321,7 +321,7 @@ def _solve_rigid(laws, k, rate_free, memory_begin, memory, guess):
     return 0.0, 0.0, UNSETTLED
 
 
-@njit
+@borrowing
 def _enclose(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
     """(F, width of its bracket, code) of element ``k``, whose force at the end of the step resists the motion there.
 
@@ -351,7 +351,7 @@ def _enclose(laws, k, elongation_free, rate_free, begin, memory_begin, memory, g
     return 0.0, 0.0, UNSETTLED
 
 
-@njit
+@borrowing
 def _narrow(laws, k, elongation_free, rate_free, begin, memory_begin, memory, instant, low, low_left, high, high_left):
     """The same from a bracket ``low`` ... ``high`` with what is left at its ends."""
     give, mobile, slow = laws.response[0, k, k], laws.response[1, k, k], False

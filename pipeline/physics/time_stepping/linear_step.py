@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 
 #: sums may be reordered to use the width of the processor; nothing else is relaxed
 _FAST = {"reassoc", "contract", "nsz"}
@@ -36,7 +36,7 @@ class HistoryKernel(NamedTuple):
     held: np.ndarray        # (n,) whether each is held until the next
 
 
-@njit
+@borrowing
 def interpolate(history, time, values):
     """Fill ``values`` (n,) with those of a HistoryKernel at ``time``."""
     last = history.value.shape[0] - 1
@@ -49,7 +49,7 @@ def interpolate(history, time, values):
             values[i] += share * (history.value[k + 1, i] - history.value[k, i])
 
 
-@njit
+@borrowing
 def hold(history, middle, begin, end):
     """Fill ``begin`` and ``end`` (n,) of a step with the samples of a HistoryKernel that are held at its ``middle``."""
     k = min(int(middle / history.interval), history.value.shape[0] - 1)
@@ -58,14 +58,14 @@ def hold(history, middle, begin, end):
             begin[i] = end[i] = history.value[k, i]
 
 
-@njit
+@borrowing
 def copy(source, target):
     """Copy values (n,). A loop: numba compiles it in a tenth of the time of an assignment of arrays."""
     for i in range(source.size):
         target[i] = source[i]
 
 
-@njit(fastmath=_FAST)
+@borrowing(fastmath=_FAST)
 def advance(step, steady, begin, end):
     """Fill the pairs ``end`` (2, m) with a ``step`` (2, 2, m) from those at its ``begin``, and ``steady`` (2, m)."""
     for b in range(begin.shape[1]):
@@ -74,7 +74,7 @@ def advance(step, steady, begin, end):
         end[1, b] = step[1, 0, b] * first + step[1, 1, b] * second + steady[1, b]
 
 
-@njit(fastmath={"contract"})        # no sums here: the same bits wherever this is compiled into
+@borrowing(fastmath={"contract"})        # no sums here: the same bits wherever this is compiled into
 def add_forces(columns, factors, pairs):
     """Add ``columns`` (n, 2, m) times ``factors`` (n,) to the pairs (2, m)."""
     for k in range(factors.size):
@@ -85,7 +85,7 @@ def add_forces(columns, factors, pairs):
                 pairs[1, b] += factor * columns[k, 1, b]
 
 
-@njit(fastmath=_FAST)
+@borrowing(fastmath=_FAST)
 def project_rows(rows, pairs, values):
     """Fill ``values`` (r,) with the rows (r, 2, m) of the pairs."""
     for k in range(values.size):

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 from pipeline.physics.time_stepping.contact_solver import SOLVED
 from pipeline.physics.time_stepping.coupled_solver import angle_after, motion_at_end
 from pipeline.physics.time_stepping.element_forces import (
@@ -101,21 +101,21 @@ def part_of(rigid, elements):
                 np.zeros(2 * count), np.zeros(count), np.zeros(len(rigid.index)), np.zeros(5))
 
 
-@njit
+@borrowing
 def _limits(laws, k):
     """(forward, backward) largest holding force of element ``k``, N."""
     p = laws.parameter[k]
     return p[1] * (1.0 + p[3]), p[2] * (1.0 + p[3])
 
 
-@njit
+@borrowing
 def _reach(rigid, laws, n, step):
     """Change of the rate (m/s) of rigid element ``n`` by its own friction within a ``step``."""
     k = rigid.index[n]
     return max(*_limits(laws, k)) * abs(rigid.by_element[n, k]) * step
 
 
-@njit
+@borrowing
 def _hold(rigid, laws, memory, pairs, inputs, force, limited, inertia):
     """Whether the ``force`` (e,) of all elements at rest settles at what takes their accelerations away.
 
@@ -144,7 +144,7 @@ def _hold(rigid, laws, memory, pairs, inputs, force, limited, inertia):
     return False
 
 
-@njit
+@borrowing
 def begin_at_rest(rigid, laws, memory, pairs, inputs, force, inertia):
     """Forces and states of the elements at rest, at the begin of a step or after a switch; whether they settle.
 
@@ -168,7 +168,7 @@ def begin_at_rest(rigid, laws, memory, pairs, inputs, force, inertia):
     return settled
 
 
-@njit
+@borrowing
 def margin(rigid, laws, memory, pairs, inputs, force, motion, step, needed, inertia):
     """The least margin to a switch at ``pairs``, below 0 beyond it, as a share of the limit.
 
@@ -194,13 +194,13 @@ def margin(rigid, laws, memory, pairs, inputs, force, motion, step, needed, iner
     return least
 
 
-@njit
+@borrowing
 def switches(least):
     """Whether a margin says that a switch lies behind."""
     return least < -_PASSED
 
 
-@njit
+@borrowing
 def states_at_start(rigid, laws, memory, motion, step):
     """Put the sign of the rate into the ``memory`` of rigid elements that move at all; others keep their state."""
     for n in range(rigid.index.size):
@@ -209,7 +209,7 @@ def states_at_start(rigid, laws, memory, motion, step):
             memory[laws.first[k]] = np.sign(motion[1, k])
 
 
-@njit
+@borrowing
 def stop(rigid, laws, memory, motion, step):
     """Bring to rest, in their ``memory``, the sliding elements whose rate has vanished; ``motion`` (2, e)."""
     for n in range(rigid.index.size):
@@ -218,7 +218,7 @@ def stop(rigid, laws, memory, motion, step):
             memory[laws.first[k]] = 0.0
 
 
-@njit
+@borrowing
 def _response(rows, part, inputs):
     """Fill the response of elongations and rates to the forces at the end of a Part."""
     count = part.needed.size
@@ -231,7 +231,7 @@ def _response(rows, part, inputs):
             part.laws.response[r // count, r % count, j] = total
 
 
-@njit
+@borrowing
 def _release(rigid, element, part, inputs):
     """Let the forces of rigid elements be constant over a Part, and judged at its end."""
     for n in range(rigid.index.size):
@@ -283,14 +283,14 @@ def _take(rigid, rows, element, part, length, clock, crowded):
     return code, where
 
 
-@njit
+@borrowing
 def _margin_of_part(rigid, element, part, step):
     """Margin at the end of a Part."""
     return margin(rigid, part.laws, element.memory_begin, part.end, part.inputs, element.force, element.end, step,
                   part.needed, part.inertia)
 
 
-@njit
+@borrowing
 def _narrowed(bracket, length, share, step):
     """Length of the next trial part once one of ``length`` s has the margin ``share``: 0 where the root is located,
     below 0 where there is none apart from the begin.
@@ -313,7 +313,7 @@ def _narrowed(bracket, length, share, step):
     return bracket[0] + (bracket[1] - bracket[0]) * bracket[2] / (bracket[2] - bracket[3])
 
 
-@njit
+@borrowing
 def _go_on(rigid, element, part, step):
     """Let the next part begin where a Part ended; whether the forces at rest settle there."""
     count, inputs = element.force.size, part.inputs.size
@@ -330,7 +330,7 @@ def _go_on(rigid, element, part, step):
     return settled
 
 
-@njit
+@borrowing
 def _part_work(element, part, crowded):
     """Work (J) of the elements on the bodies over a Part."""
     total, inputs = 0.0, part.inputs.size

@@ -7,13 +7,13 @@ phi_2(2z) = (E phi_2 + phi_1 + phi_2) / 4 (Higham, Functions of Matrices, SIAM 2
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing, njit
 
 #: norm of z up to which the series is used, and its terms: the next one is below rounding
 _SMALL, _TERMS = 0.25, 11
 
 
-@njit
+@borrowing
 def _times(left, right, result):
     """Fill ``result`` (2, 2) with the product of two matrices (2, 2)."""
     for a in range(2):
@@ -21,7 +21,7 @@ def _times(left, right, result):
             result[a, b] = left[a, 0] * right[0, b] + left[a, 1] * right[1, b]
 
 
-@njit
+@borrowing
 def _functions(z, grown, once, ramp, product):
     """Fill ``grown``, ``once`` and ``ramp`` (2, 2) with exp, phi_1 and phi_2 of ``z``, which is used up."""
     size, doublings = max(abs(z[0, 0]) + abs(z[0, 1]), abs(z[1, 0]) + abs(z[1, 1])), 0
@@ -49,7 +49,7 @@ def _functions(z, grown, once, ramp, product):
         _double(grown, once, ramp, product)
 
 
-@njit
+@borrowing
 def _double(grown, once, ramp, product):
     """Take ``grown``, ``once`` and ``ramp`` (2, 2) from z to 2 z."""
     _times(grown, ramp, product)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.compiled import borrowing
 from pipeline.physics.time_stepping.linear_step import add_forces, project_rows
 from pipeline.physics.time_stepping.normal_laws import contiguous
 
@@ -47,7 +47,7 @@ def turning_kernel(model, system, matrices, varies):
                          float(model.speed))
 
 
-@njit
+@borrowing
 def turning_force(turning, seen, speed, force):
     """Fill ``force`` (r,) with p at a ``speed`` of the drive; ``seen`` (2 r,) displacements, then velocities."""
     count = force.size
@@ -60,7 +60,7 @@ def turning_force(turning, seen, speed, force):
         force[i] = -total
 
 
-@njit
+@borrowing
 def turn(turning, pairs, speed, seen, force, change):
     """Add to the ``pairs`` (2, m) at the end of a step what p changes in them; whether it settles.
 
@@ -76,7 +76,7 @@ def turn(turning, pairs, speed, seen, force, change):
     return settled
 
 
-@njit
+@borrowing
 def correct(turning, pairs, speed, seen, force, change):
     """One sweep of ``turn``: p of the ``pairs`` in place of ``force``; whether it has settled."""
     project_rows(turning.rows, pairs, seen)
@@ -92,7 +92,7 @@ def correct(turning, pairs, speed, seen, force, change):
     return moved <= _SETTLED * largest
 
 
-@njit
+@borrowing
 def turning_work(begin, end, seen_begin, seen):
     """Work (J) of p from ``begin`` to ``end`` (r,) on the displacements, first half of ``seen`` (2 r,)."""
     work = 0.0
