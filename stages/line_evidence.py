@@ -23,9 +23,9 @@ from pipeline.diagnosis.published.line_hypotheses import (
 from pipeline.diagnosis.published.line_tests import cycle_tests, record_tests, run_tests
 from pipeline.diagnosis.published.line_weighing import predicted, weighed
 from pipeline.diagnosis.published.pressure_cycle import Cycle, cycle_fields, no_cycle
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.products import ComplexModes, FrictionMap, LineEvidence, NoiseEvents, Recording, ReducedModel
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL
+from pipeline.products import ComplexModes, Effects, FrictionMap, LineEvidence, NoiseEvents, Recording, ReducedModel
 
 #: draws of one task of the fan-out
 _CHUNK = 10
@@ -103,8 +103,11 @@ def _refuse_pressure(settings):
 
 @stage(companions=companions, check=_check)
 def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: ComplexModes, recording: Recording,
-                  events: NoiseEvents | None, settings: Settings, context: Context) -> LineEvidence:
+                  events: NoiseEvents | None, effects: Effects | None, settings: Settings,
+                  context: Context) -> LineEvidence:
     """Weigh hypotheses on a squeal by how probable they make the lines that were heard.
+
+    Effects of the case act in all of them.
 
     Method:
     Each hypothesis was drawn {draws} times over the declared scatter (seed {seed}). The unstable modes of a draw at the
@@ -129,7 +132,7 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     variants = {keys[name]: made[name].factors for name in made}
     training = {key: draws(settings.hypotheses[name], settings.training, [settings.seed, 1]).factors
                 for name, key in keys.items()}
-    families = {disc: [_family(model, state, friction_map, points, () if disc == FLEXIBLE else settings.disc)
+    families = {disc: [_family(model, state, friction_map, points, effects, () if disc == FLEXIBLE else settings.disc)
                        for state in range(len(model.pressure))] for disc in (FLEXIBLE, RIGID)}
     roots = _solved(families, variants, training, tests, points, settings, context)
     hypotheses = {name: predicted(h, made[name], roots[keys[name]], tests, settings.high, settings.model_error)
@@ -155,8 +158,8 @@ def _tests(recording, events, settings, pressure):
     return (run_tests if settings.runs else cycle_tests)(recording, settings, pressure)
 
 
-def _family(model, state, friction_map, points, held):
-    whole = family(model, state, friction_map, points)
+def _family(model, state, friction_map, points, effects, held):
+    whole = family(model, state, friction_map, points, effects)
     return on_rigid_disc(whole, held) if held else whole
 
 

@@ -5,6 +5,8 @@ Draws are made before the fan-out, so that the number of workers changes no bit.
 
 import csv
 import io
+from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from pipeline.case_models.scatter import (
     KINDS,
     Source,
     check_sources,
+    family,
     fitting,
     friction_errors,
     law_in_words,
@@ -25,9 +28,9 @@ from pipeline.case_models.scatter import (
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.diagnosis import noise_matrix_case
 from pipeline.diagnosis.noise_matrix_comparison import comparison
-from pipeline.physics.stability.draw_statistics import third_octaves
-from pipeline.physics.stability.whole_roots import accuracy
-from pipeline.products import ComplexModes, FrictionMap, NoiseEvents, NoiseMatrix, Recording, ReducedModel
+from pipeline.physics.stability.draws.draw_statistics import third_octaves
+from pipeline.physics.stability.draws.whole_roots import accuracy
+from pipeline.products import ComplexModes, Effects, FrictionMap, NoiseEvents, NoiseMatrix, Recording, ReducedModel
 
 
 class Settings(Section):
@@ -106,12 +109,13 @@ def _check(sections):
 
 @stage(companions=companions, check=_check)
 def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: ComplexModes,
-                 recording: Recording | None, events: NoiseEvents | None, settings: Settings,
+                 recording: Recording | None, events: NoiseEvents | None, effects: Effects | None, settings: Settings,
                  context: Context) -> NoiseMatrix:
     """Predict the squeal of a schedule of stops over the scatter of the brake, and compare it with a bench.
 
-    Operating points and terms are those of complex_modes, loss factors always hysteretic; every pressure and speed of
-    the schedule is solved, a stop at several speeds along it. An application is noisy where a mode is unstable.
+    Operating points, terms and effects are those of complex_modes, loss factors always hysteretic; every pressure and
+    speed of the schedule is solved, a stop at several speeds along it. An application is noisy where a mode is
+    unstable.
 
     Method:
     {draws} brakes with {repeats} stops each were drawn from the declared scatter (seed {seed}); sources that change
@@ -130,7 +134,8 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
     errors = friction_errors(friction_map, points.sliding_distance)
     draws = Draws.of(settings, errors, model, settings.draws, settings.seed)
     training = Draws.of(settings, errors, model, settings.training, [settings.seed, 1])
-    result = solved(plan, draws, training, model, friction_map, points, bands, settings, context)
+    result = solved(plan, draws, training, model, friction_map, partial(_family, points, effects), points, bands,
+                    settings, context)
     noisy = result.noisy.reshape(settings.draws, settings.repeats, len(plan.conditions), len(bands.middle))
     return NoiseMatrix(
         **described(plan, settings), limits=[bands.low, bands.high], band=bands.middle,
@@ -139,6 +144,12 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
         repeats=settings.repeats, **predicted(noisy, plan.applications), **_accuracy(result),
         outside=outside(friction_map, plan, model.contact_lever, settings),
         **_compared(noisy, plan, bands, recording, events, settings))
+
+
+def _family(points, effects, model, state, friction_map, direction):
+    """Family of one preload, with the effects of the case as they are when it slides in a ``direction``, 1 or -1."""
+    turning = SimpleNamespace(**{**vars(points), "speeds": direction * np.abs(points.speeds)})
+    return family(model, state, friction_map, turning, effects)
 
 
 def _accuracy(result):

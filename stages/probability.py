@@ -12,7 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models import effect_block
 from pipeline.case_models.operating_points import Speeds, selected_speeds
 from pipeline.case_models.scatter import (
     ADDITIONS,
@@ -28,8 +27,8 @@ from pipeline.case_models.scatter import (
     stability_settings,
     standard_deviation,
 )
-from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
-from pipeline.physics.stability.draw_statistics import (
+from pipeline.contract import Context, ConvergenceError, Quantity, Section, option, stage
+from pipeline.physics.stability.draws.draw_statistics import (
     among_bands,
     draws_needed,
     even_scores,
@@ -39,9 +38,9 @@ from pipeline.physics.stability.draw_statistics import (
     squealing,
     third_octaves,
 )
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import accuracy, beside_whole
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL
+from pipeline.physics.stability.draws.whole_roots import accuracy, beside_whole
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel
 
 TWO_PI = 2.0 * np.pi
@@ -73,8 +72,6 @@ class Settings(Section):
 
 def _check(sections):
     check_sources(sections["probability"].sources, "probability.sources")
-    if "effects" in sections:
-        _refuse_effects(effect_block.product(sections["effects"]), sections["probability"])
 
 
 @stage(check=_check)
@@ -82,9 +79,9 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
                 settings: Settings, context: Context) -> Probability:
     """Estimate how likely unstable modes are over the scatter of the brake.
 
-    Operating points, limits and terms are those of complex_modes, loss factors always hysteretic. A draw counts at an
-    operating point if a mode of squeal, from complex_modes.squeal_from on, grows faster than 'least_growth' there;
-    'overall' counts draws with one at any point. Lower modes count in their 1/3 octaves only.
+    Operating points, limits, terms and effects are those of complex_modes, loss factors always hysteretic. A draw
+    counts at an operating point if a mode of squeal, from complex_modes.squeal_from on, grows faster than
+    'least_growth' there; 'overall' counts draws with one at any point. Lower modes count in their 1/3 octaves only.
 
     Method:
     At most {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating
@@ -95,18 +92,17 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     draws as have what the sources leave of the variance by a linear law; they speak of the number of draws only.
     Sensitivities are first-order Sobol indices of the largest growth rate.
     """
-    _refuse_effects(effects, settings)
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
     points = stability_settings(modes)
     points.speeds = selected_speeds(settings.speeds, points.speeds)
     errors = friction_errors(friction_map, points.sliding_distance)
     scores = even_scores(settings.draws, len(settings.sources), settings.seed)
     values = scored_values(settings.sources, errors, scores)
+    families = [family(model, state, friction_map, points, effects) for state in range(len(model.pressure))]
     drawn = [factors_of(settings.sources, row, model) for row in values]
     others = scored_values(
         settings.sources, errors, even_scores(settings.training, len(settings.sources), [settings.seed, 1]))
     training = [NOMINAL, *(factors_of(settings.sources, row, model) for row in others)]
-    families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
     cases, modes = _solved(families, drawn, scores, training, points, settings, context) if drawn else ([], [])
     values, scores = values[:len(modes)], scores[:len(modes)]
     scatter = [standard_deviation(s, errors) for s in settings.sources]
@@ -120,13 +116,6 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         **_results(modes, values, scores, points, len(model.pressure) * len(points.speeds), settings),
         **accuracy([whole for whole, _ in checked]), spectrum_differ=sum(differs for _, differs in checked),
         least_growth=settings.least_growth, squeal_from=points.squeal_from)
-
-
-def _refuse_effects(effects, settings):
-    terms = effect_block.physics_terms(effects)
-    if terms and settings.draws:
-        raise ConfigError("probability", "a case without effects, which are not sampled",
-                          ", ".join(term.effect.name for term in terms), "set probability.draws: 0")
 
 
 def _solved(families, drawn, scores, training, points, settings, context):

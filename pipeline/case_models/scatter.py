@@ -9,16 +9,20 @@
 
 import json
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Literal
 
 import numpy as np
 import scipy
 
-from pipeline.case_models.steady_sliding import mapped_friction, stated_friction
+from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.steady_sliding import mapped_friction, posed, refuse_twice, stated_friction
 from pipeline.contract import ConfigError, Section, option
+from pipeline.physics.contact.groups import alike, read
 from pipeline.physics.sliding.model import at_state, lining_part, sliding_model
-from pipeline.physics.stability.scatter import Factors, Family, Pivot
+from pipeline.physics.stability.draws.added_physics import AddedPhysics, acting
+from pipeline.physics.stability.draws.scatter import Factors, Family, Pivot
 
 JOINTS, JOINT_LOSS, BODY_LOSS = "joint_stiffness", "joint_loss", "body_loss"
 #: kinds that multiply one value of the whole brake, and those that add to friction, with their fields in Factors
@@ -203,25 +207,51 @@ def stability_settings(modes):
     return SimpleNamespace(**json.loads(str(modes.settings)))
 
 
-def family(model, state, friction_map, settings):
-    """Family of the products ReducedModel, at one row of its preload, and FrictionMap, or None where friction is that
-    of the ``settings``, as of ``stability_settings``."""
+def family(model, state, friction_map, settings, effects=None):
+    """Family of the products ReducedModel, at one row of its preload, FrictionMap, or None where friction is that of
+    the ``settings``, as of ``stability_settings``, and Effects, or None.
+
+    ConfigError for unknown locations of effects, and for friction that turns with the slip twice.
+    """
     model = at_state(model, state)
     bare = replace(model, loss=0 * model.loss, joint_loss_factor=0 * model.joint_loss_factor)
     lining = lining_part(model) if len(model.lining_coordinate) else None
     at = settings.sliding_distance
-    law, pivot = ((stated_friction(settings)[1], Pivot()) if friction_map is None      # slopes are about 1 m/s
-                  else _mapped(friction_map, at))
-    return Family(
+    (given, law), pivot = ((stated_friction(settings), Pivot()) if friction_map is None      # slopes are about 1 m/s
+                           else _mapped(friction_map, at))
+    made = Family(
         sliding_model(bare, state, float(np.mean(settings.speeds))), law,
         model.pressure[state] * model.input_area, settings.damping_speed, model.loss, model.joint_loss_factor, lining,
         float(model.lining_loss_factor), model.law_closure, model.law_pressure, pivot, settings.friction_slopes,
         settings.friction_damping, settings.gyroscopic, settings.centrifugal)
+    terms = physics_terms(effects)
+    if not terms:
+        return made
+    return _acted_on(made, posed(bare, state, made.model.speed, settings.damping_speed, terms, conditions(effects)),
+                     given)
+
+
+def _acted_on(made, case, given):
+    """A Family with the effects of a Posed, its friction, the Friction ``given``, with those on it."""
+    refuse_twice(case.bench, made.friction_damping)
+    friction, model, law = case.friction(given), case.bench.model, case.bench.law
+    count, more = len(model.contacts.area), case.bench.model.size - made.model.size
+    if alike(case.base.law, law, count) and (made.has_law or not case.moved):
+        law = None
+    else:
+        model = replace(model, contacts=replace(model.contacts, gap=read(law, "gap", count)))
+    of_effects = len(model.joints.name) - len(made.joint_loss_factor)
+    return replace(
+        made, model=model, loss=np.pad(made.loss, (0, more)),
+        lining=None if made.lining is None else np.pad(made.lining, (0, more)),
+        joint_loss_factor=np.append(made.joint_loss_factor, np.zeros(of_effects)), added=AddedPhysics(friction, law),
+        friction=made.friction if friction is given else partial(acting, friction, model.direction(),
+                                                                 model.contacts.area))
 
 
 def _mapped(friction_map, at):
-    """(friction, Pivot) of a product FrictionMap at a sliding distance, m."""
+    """((Friction, function that gives a FrictionState), Pivot) of a product FrictionMap at a sliding distance, m."""
     best = float(np.interp(at, friction_map.distance, friction_map.best_pressure))
     pivot = Pivot(best, float(np.exp(np.log(friction_map.speed).mean())), tuple(friction_map.pressure[[0, -1]]),
                   tuple(friction_map.speed[[0, -1]]))
-    return mapped_friction(friction_map, at)[1], pivot
+    return mapped_friction(friction_map, at), pivot

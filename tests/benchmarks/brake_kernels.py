@@ -27,8 +27,8 @@ from pipeline.physics.sliding.equilibrium import closure_response
 from pipeline.physics.sliding_motion import exudyn_motion
 from pipeline.physics.sliding_motion.motion import sliding_motion
 from pipeline.physics.sliding_motion.sliding_modes import sliding_modes
+from pipeline.physics.stability.draws.sampled_roots import sampled
 from pipeline.physics.stability.friction_basis import friction_basis
-from pipeline.physics.stability.sampled_roots import sampled
 from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 from stages.complex_modes import Settings as ModesSettings
 from stages.complex_modes import complex_modes

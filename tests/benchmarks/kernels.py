@@ -29,9 +29,9 @@ from pipeline.physics.rupture.history import run
 from pipeline.physics.rupture.plate_grid import largest_step, plate
 from pipeline.physics.rupture.plate_step import plain_step, rims, step_plate
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
-from pipeline.physics.stability.sampled_roots import Sampled
-from pipeline.physics.stability.sampled_sliding import GivenSliding
-from pipeline.physics.stability.scatter import Factors, Family
+from pipeline.physics.stability.draws.sampled_roots import Sampled
+from pipeline.physics.stability.draws.sampled_sliding import GivenSliding
+from pipeline.physics.stability.draws.scatter import Factors, Family
 from pipeline.physics.time_stepping.simulate import Hard, simulate
 from pipeline.physics.virtual_rig.response import Run as RigRun
 from pipeline.physics.virtual_rig.response import respond

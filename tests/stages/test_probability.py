@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.contract import ConfigError, Context, ProductError, store
 from pipeline.contract.integrity import kept
-from pipeline.physics.stability.draw_statistics import draws_needed
+from pipeline.physics.stability.draws.draw_statistics import draws_needed
 from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
@@ -135,11 +135,16 @@ def test_unknown_parts_are_refused_before_anything_is_computed(brake):
         probability(*brake, settings=Settings(sources=({"kind": "joint_loss", "part": "fingre", "variation": 0.5},)))
 
 
-def test_effects_are_refused_unless_nothing_is_drawn(brake):
-    added = effects({"falling_friction": {"contact": {"rise": 0.2, "decay_speed": "100 mm/s"}}})
-    with pytest.raises(ConfigError, match="probability.draws: 0"):
-        probability(*brake, added, settings=Settings(sources=SOURCES))
-    assert not len(probability(*brake, added, settings=Settings(draws=0, sources=SOURCES)).value)
+def test_effects_act_in_every_draw(brake, made):
+    """Friction that falls with speed makes more draws squeal, in each about its own sliding state."""
+    added = effects({"falling_friction": {"contact": {"rise": 0.1, "decay_speed": "500 mm/s"}}})
+    model, law, _ = brake
+    settings = Modes(friction_steps=2, speeds=("8 rad/s", "12 rad/s"), frequency_max="8 kHz")
+    modes = complex_modes(model, law, added, settings=settings)
+    falling = probability(model, law, modes, added, settings=Settings(draws=40, checked=6, sources=SOURCES))
+    assert falling.overall > made.overall + 0.1 and np.array_equal(falling.value, made.value)
+    assert falling.missed == 0 and int(falling.spectrum_differ) == 0
+    np.testing.assert_allclose(falling.checked_root, falling.whole_root, rtol=5e-3)
 
 
 def test_no_draws_give_no_probability(brake):

@@ -27,9 +27,9 @@ from pipeline.case_models.scatter import (
 )
 from pipeline.contract.settings import fill
 from pipeline.environment import ONE_THREAD
-from pipeline.physics.stability.draw_statistics import rate_interval
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL
+from pipeline.physics.stability.draws.draw_statistics import rate_interval
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL
 from tests.benchmarks.brake_kernels import brake
 
 #: further draws that the common bases serve, as in the settings of the stage

@@ -6,7 +6,7 @@ its counterpart then narrows the interval of the change.
 
 import numpy as np
 
-from pipeline.physics.stability.draw_statistics import among_bands, rate_change, squealing
+from pipeline.physics.stability.draws.draw_statistics import among_bands, rate_change, squealing
 
 
 def squealing_draws(probability):

@@ -10,12 +10,12 @@ from functools import partial
 import numpy as np
 
 from pipeline.case_models.noise_matrix.schedule import STOP
-from pipeline.case_models.scatter import draw_values, factors_of, family
+from pipeline.case_models.scatter import draw_values, factors_of
 from pipeline.contract import ConfigError, ConvergenceError
-from pipeline.physics.stability.draw_statistics import band_of
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import beside_whole
+from pipeline.physics.stability.draws.draw_statistics import band_of
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL
+from pipeline.physics.stability.draws.whole_roots import beside_whole
 
 TWO_PI = 2.0 * np.pi
 #: draws of one task of the fan-out
@@ -81,8 +81,9 @@ def pad_speeds(condition, points, settings):
     return group, condition.speeds(points) / settings.wheel_radius
 
 
-def families(groups, model, friction_map, points, reference_temperature):
-    """[Family] of the Groups; ConfigError for a pressure that a model without a normal law does not have."""
+def families(groups, model, friction_map, family, reference_temperature):
+    """[Family] of the Groups; ``family(model, state, friction_map, direction)``: that of one preload. ConfigError for a
+    pressure that a model without a normal law does not have."""
     made = []
     for group in groups:
         state = int(np.argmin(abs(model.pressure - group.pressure)))
@@ -93,7 +94,7 @@ def families(groups, model, friction_map, points, reference_temperature):
                 "add it to the pressures of structure or the load factors of lumped, or change pressure_factor")
         warm = friction_map if not group.temperature else at_temperature(
             friction_map, group.temperature - reference_temperature)
-        made.append(replace(family(model, state, warm, points), input_force=group.pressure * model.input_area))
+        made.append(replace(family(model, state, warm, group.direction), input_force=group.pressure * model.input_area))
     return made
 
 
@@ -119,12 +120,12 @@ class Solved:
     compared: list
 
 
-def solved(schedule, draws, training, model, friction_map, points, bands, settings, context):
-    """Solved: the Draws under the conditions of a Schedule."""
+def solved(schedule, draws, training, model, friction_map, family, points, bands, settings, context):
+    """Solved: the Draws under the conditions of a Schedule; ``family``: see ``families``."""
     where = [pad_speeds(condition, settings.points, settings) for condition in schedule.conditions]
     groups = list(dict.fromkeys(group for group, _ in where))
     speeds = {group: np.unique(np.concatenate([v for g, v in where if g == group])) for group in groups}
-    tasks = list(zip(families(groups, model, friction_map, points, settings.reference_temperature),
+    tasks = list(zip(families(groups, model, friction_map, family, settings.reference_temperature),
                      speeds.values(), strict=True))
     cases = dict(zip(groups, context.map(
         partial(_sampled, points.frequency_max, (NOMINAL, *training.factors), settings.smallest_correction), tasks,

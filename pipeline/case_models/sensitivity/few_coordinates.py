@@ -20,7 +20,7 @@ from pipeline.physics.contact.static_preload import Preload
 from pipeline.physics.modal.root_derivatives import RootWithVectors
 from pipeline.physics.sliding.equilibrium import displacement, given_state, model_about
 from pipeline.physics.sliding.model import Joints
-from pipeline.physics.stability.whole_roots import linearising, sliding_state
+from pipeline.physics.stability.draws.whole_roots import linearising, sliding_state
 from pipeline.products import ReducedModel
 
 #: matrices and rows of a product ReducedModel that its coordinates span

@@ -7,8 +7,8 @@ import numpy as np
 from pipeline.case_models.scatter import family
 from pipeline.physics.modal.quadratic_eigenproblem import polished
 from pipeline.physics.modal.root_derivatives import with_vectors
-from pipeline.physics.stability.scatter import Factors
-from pipeline.physics.stability.whole_roots import about_sliding
+from pipeline.physics.stability.draws.scatter import Factors
+from pipeline.physics.stability.draws.whole_roots import about_sliding
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def varied(case, friction_map, points, friction=None):
 def matrices(case, friction_map, points):
     """(M, C, K) each (n, n) of a Case about its own steady sliding, loss factors as imaginary stiffness."""
     made = varied(case, friction_map, points)
-    return matrices_about(made, *about_sliding(made))
+    return matrices_about(made, *about_sliding(made)[:2])
 
 
 def matrices_about(made, about, friction):
@@ -49,7 +49,7 @@ def matrices_about(made, about, friction):
 
 def mean_friction(case, friction_map, points):
     """Friction coefficient of a Case, mean over the contacts weighted by their force."""
-    about, friction = about_sliding(varied(case, friction_map, points))
+    about, friction, _ = about_sliding(varied(case, friction_map, points))
     force = about.contacts.preload
     return float(force @ np.broadcast_to(friction.coefficient, force.shape) / force.sum())
 

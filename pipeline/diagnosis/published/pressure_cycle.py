@@ -17,7 +17,7 @@ import numpy as np
 from pipeline.contract import Quantities, Quantity, Section, option
 from pipeline.diagnosis.published.line_tests import grouped
 from pipeline.physics.sliding.model import FrictionState
-from pipeline.physics.stability.whole_roots import whole_roots
+from pipeline.physics.stability.draws.whole_roots import whole_roots
 
 _TWO_PI = 2 * np.pi
 _FIELDS = ("cycle_time", "cycle_pressure", "cycle_speed", "cycle_hypothesis", "cycle_draw", "cycle_temperature",

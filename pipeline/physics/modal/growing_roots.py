@@ -18,12 +18,13 @@ by which they were picked, so that others may have been left out, the bands do n
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import DenseFactors, by_frequency, polished
+from pipeline.physics.modal.quadratic_eigenproblem import DenseFactors, by_frequency, operator, polished
 from pipeline.physics.numerics.dense_factor import DenseFactor, product
 
 #: growth rates above this negative share of the frequency are solved for, as is the largest, and above this in 1/s
@@ -34,6 +35,8 @@ _LOW, _BANDS = 1 / 8, 4
 _ABOUT, _ABOUT_LOW = 0.2, 0.6
 #: roots this far beyond a band, as a share of their frequency, are its own too: none is left to the other of two
 _SHARED = 2e-3
+#: octaves down from the limit over each of which memory is as at the middle; below the last it is one band
+_OCTAVES = 8
 #: so few coordinates are not split into bands
 _FEW = 60
 #: matrices are factorised beside a root, where they are regular in single precision
@@ -57,33 +60,76 @@ class Growing:
     whole: bool
 
 
-def growing_roots(damping, stiffness, change, limit):
+def growing_roots(damping, stiffness, change, limit, beside=None):
     """Growing: all roots that grow, or nearly do, and the least stable one.
 
     ``damping`` (m, m) 1/s real; ``stiffness`` (m, m) 1/s^2 real symmetric and ``change`` (m, m) 1/s^2 complex are K_0
     and dK; roots are below ``limit`` rad/s. The bands decide which are solved for: a root that grows by less than 4e-4
     of its frequency may be missing, and where none grows another than the least stable one may stand for it.
+    ``beside``: a Settling, see ``quadratic_eigenproblem``, or None; bands take what it answers at their middles.
     Raises ConvergenceError where a root cannot be solved for.
     """
     square, real = scipy.linalg.eigh(stiffness, driver="evd", check_finite=False)
     whole = np.ones(len(square)), damping, stiffness + change
     try:
         modes = _in_real_modes(damping, change, square, real.astype(np.float32))
-        return _solved(_bands(*modes, np.sqrt(np.maximum(square, 0.0)), limit), real, whole, limit)
+        memory = _Memory.of(beside, real)
+        return _solved(_bands(*modes, np.sqrt(np.maximum(square, 0.0)), limit, memory), real, whole, limit, beside)
     except (ConvergenceError, np.linalg.LinAlgError):
-        return _of_all(square, real, whole, change, limit)
+        return _of_all(square, real, whole, change, limit, beside)
 
 
-def spectrum_roots(damping, stiffness, change, limit):
-    """Growing, as of ``growing_roots``, from all 2 m roots of the system, in double precision."""
+def spectrum_roots(damping, stiffness, change, limit, beside=None):
+    """Growing, as of ``growing_roots``, from all 2 m roots of the system, in double precision; with a Settling
+    ``beside`` it, of those about each of a few frequencies as it answers there."""
     square, real = scipy.linalg.eigh(stiffness, driver="evd", check_finite=False)
     whole = np.ones(len(square)), damping, stiffness + change
-    return _of_all(square, real, whole, change, limit)
+    return _of_all(square, real, whole, change, limit, beside)
 
 
-def _of_all(square, real, whole, change, limit):
-    modes = _in_real_modes(whole[1], change, square, real)
-    return _solved([(_Low.of(*modes, len(square), 0.0), 0.0, limit)], real, whole, limit, every=True)
+def _of_all(square, real, whole, change, limit, beside):
+    modes, memory = _in_real_modes(whole[1], change, square, real), _Memory.of(beside, real)
+    ends = [0.0, limit] if memory is None else _octaves(limit)
+    bands = [(_Low.of(*_remembering(modes, memory, (low + high) / 2), len(square), 0.0), low, high)
+             for low, high in pairwise(ends)]
+    return _solved(bands, real, whole, limit, beside, every=True)
+
+
+@dataclass(frozen=True)
+class _Memory:
+    """A Settling in real modes: ``push`` (m, k), ``by_place`` and ``by_speed`` (k, m), ``decay`` (k,)."""
+
+    push: np.ndarray
+    by_place: np.ndarray
+    by_speed: np.ndarray
+    decay: np.ndarray
+
+    @classmethod
+    def of(cls, beside, real):
+        """Of a Settling, None where nothing settles, in the real modes (m, m)."""
+        if beside is None or not beside.decay.size:
+            return None
+        return cls(real.T @ beside.push, beside.by_place @ real, beside.by_speed @ real, beside.decay)
+
+    def at(self, pace):
+        """(C, K) real (m, m) that stand for it at the frequency ``pace`` rad/s."""
+        answer = 1 / (1j * pace + self.decay)
+        drawn = -(self.push * answer) @ (self.by_place + 1j * pace * self.by_speed)
+        return drawn.imag / pace, drawn.real
+
+
+def _octaves(limit):
+    """Ends in rad/s of bands over which what a _Memory answers is taken as it is at their middles."""
+    return [0.0, *(limit / 2.0 ** np.arange(_OCTAVES, -1, -1))]
+
+
+def _remembering(modes, memory, pace):
+    """(C, K) of ``modes``, with what a _Memory, or None, adds at a frequency ``pace`` rad/s."""
+    if memory is None:
+        return modes
+    damping, stiffness = modes
+    drag, spring = memory.at(pace)
+    return damping + drag.astype(damping.dtype), stiffness + spring.astype(damping.dtype)
 
 
 def _in_real_modes(damping, change, square, real):
@@ -95,18 +141,24 @@ def _in_real_modes(damping, change, square, real):
     return damping, stiffness
 
 
-def _bands(damping, stiffness, pace, limit):
+def _bands(damping, stiffness, pace, limit, memory=None):
     """[(condensed problem, its lower, its upper end in rad/s)] that cover the frequencies to the ``limit``; ``pace``
-    (m,) rad/s are those of the real modes."""
+    (m,) rad/s are those of the real modes; ``memory``: a _Memory or None."""
+    modes, ends = (damping, stiffness), limit * np.geomspace(_LOW, 1.0, _BANDS + 1)
     if len(pace) <= _FEW:
-        return [(_Low.of(damping, stiffness, len(pace), 0.0), 0.0, limit)]
-    ends = limit * np.geomspace(_LOW, 1.0, _BANDS + 1)
-    last = int(np.searchsorted(pace, (1 + _ABOUT_LOW) * ends[0]))
-    bands = [(_Low.of(damping, stiffness, last, ends[0] / 2), 0.0, ends[0])] if last else []
-    for low, high in zip(ends[:-1], ends[1:], strict=True):
+        whole = [0.0, limit] if memory is None else _octaves(limit)
+        return [(_Low.of(*_remembering(modes, memory, (low + high) / 2), len(pace), 0.0), low, high)
+                for low, high in pairwise(whole)]
+    last, lowest = int(np.searchsorted(pace, (1 + _ABOUT_LOW) * ends[0])), [0.0, ends[0]]
+    if memory is not None:
+        lowest = [end for end in _octaves(limit) if end <= ends[0]]
+    bands = [(_Low.of(*_remembering(modes, memory, (low + high) / 2), last, ends[0] / 2), low, high)
+             for low, high in pairwise(lowest if last else [])]
+    for low, high in pairwise(ends):
         first, last = np.searchsorted(pace, ((1 - _ABOUT) * low, (1 + _ABOUT) * high))
         if last > first:
-            bands.append((_Band.of(damping, stiffness, np.arange(first, last), (low + high) / 2), low, high))
+            middle = (low + high) / 2
+            bands.append((_Band.of(*_remembering(modes, memory, middle), np.arange(first, last), middle), low, high))
     return bands
 
 
@@ -206,20 +258,20 @@ def _null_vector(matrix):
     return vector
 
 
-def _solved(bands, real, whole, limit, every=False):
+def _solved(bands, real, whole, limit, beside, every=False):
     """Growing, by step 2; ``whole``: (M, C, K) in all coordinates. ConvergenceError where that shows that the ``bands``
     did not serve, unless ``every`` root has been computed."""
     found, shapes, residuals = [], [], []      # found: [(root, number of its band)]
     for number, near in _candidates(bands, limit):
         band, near = bands[number][0], _BESIDE * near
-        s, x = polished(*whole, near, real @ band.shape(near), factors=DenseFactors(np.complex64), accuracy=_ROOT)
+        s, x = polished(*whole, near, real @ band.shape(near), beside, DenseFactors(np.complex64), _ROOT)
         twins = [of for root, of in found if abs(s - root) <= _SAME * abs(s)]
         if not every and (number in twins or s.real > near.real + _margin(s)):
             raise ConvergenceError("growing roots", f"one root near {near:.6g} 1/s", f"{s:.6g} 1/s")
         if abs(s) < limit and not twins:
             found.append((s, number))
             shapes.append(x)
-            residuals.append(_residual(whole, s, x))
+            residuals.append(_residual(whole, s, x, beside))
     roots = np.array([root for root, _ in found], complex)
     order = np.argsort(-roots.real, kind="stable")
     return Growing(roots[order], np.reshape(shapes, (-1, len(real))).T[:, order], np.array(residuals, float)[order],
@@ -231,10 +283,10 @@ def _margin(root):
     return _SLOWLY + _NEARLY * abs(root)
 
 
-def _residual(whole, root, x):
+def _residual(whole, root, x, beside):
     """|T(s) x| / |T'(s) x| in 1/s."""
-    inertia, drag, held = (product(part, x) for part in whole)
-    return np.linalg.norm(root**2 * inertia + root * drag + held) / np.linalg.norm(2 * root * inertia + drag)
+    left, slope = operator(*whole, root, beside, x)
+    return np.linalg.norm(left) / np.linalg.norm(slope)
 
 
 def _candidates(bands, limit):

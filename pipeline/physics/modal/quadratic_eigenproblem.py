@@ -62,9 +62,9 @@ def vectors_of(mass, damping, stiffness, roots, every_root, beside=None):
         return modes.right[:, scipy.optimize.linear_sum_assignment(abs(roots[:, None] - modes.value))[1]]
     start, vectors = np.random.default_rng(0).standard_normal(len(mass)), np.empty((len(mass), len(roots)), complex)
     for k, root in enumerate(roots):
-        factor, x = DenseFactor(_operator(mass, damping, stiffness, root * _BESIDE, beside)[0]), start
+        factor, x = DenseFactor(operator(mass, damping, stiffness, root * _BESIDE, beside)[0]), start
         for _ in range(_INVERSE):
-            x = factor.solve(_operator(mass, damping, stiffness, root, beside, x)[1])
+            x = factor.solve(operator(mass, damping, stiffness, root, beside, x)[1])
             x = x / np.linalg.norm(x)
         vectors[:, k] = x / np.sqrt((x.conj() @ (mass @ x)).real)
     return vectors
@@ -100,16 +100,16 @@ def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, 
     given = factors.ready
     for attempt in range(_FACTORISATIONS):
         if attempt or not given:
-            factors.renew(_operator(mass, damping, stiffness, s, beside)[0])
+            factors.renew(operator(mass, damping, stiffness, s, beside)[0])
         left = factors.solve(x, adjoint=True).conj()
         for _ in range(_POLISHINGS):
-            operator, slope = _operator(mass, damping, stiffness, s, beside, x)
+            missing, slope = operator(mass, damping, stiffness, s, beside, x)
             along = left @ slope
             if along == 0 or not np.isfinite(along):
                 break
-            step = (left @ operator) / along
+            step = (left @ missing) / along
             s = s - step
-            x = x - factors.solve(operator - step * slope)
+            x = x - factors.solve(missing - step * slope)
             x = x / np.linalg.norm(x)
             if abs(step) <= accuracy * abs(s):
                 return s, x
@@ -139,7 +139,7 @@ class DenseFactors:
         return self._factor.solve(rhs, adjoint)
 
 
-def _operator(mass, damping, stiffness, s, beside, x=None):
+def operator(mass, damping, stiffness, s, beside, x=None):
     """T(s) = s^2 M + s C + K less what settles beside it, and dT/ds; both times ``x`` where it is given."""
     settles = beside is not None and beside.decay.size
     if settles:
@@ -153,11 +153,11 @@ def _operator(mass, damping, stiffness, s, beside, x=None):
             whole = s**2 * mass + s * damping + stiffness
         return (whole - (push * answer) @ heard if settles else whole), None
     inertia, drag = product(mass, x), product(damping, x)
-    operator, slope = s**2 * inertia + s * drag + product(stiffness, x), 2 * s * inertia + drag
+    missing, slope = s**2 * inertia + s * drag + product(stiffness, x), 2 * s * inertia + drag
     if settles:
-        operator = operator - push @ (answer * (heard @ x))
+        missing = missing - push @ (answer * (heard @ x))
         slope = slope - push @ (answer * (beside.by_speed @ x - answer * (heard @ x)))
-    return operator, slope
+    return missing, slope
 
 
 def by_frequency(roots):

@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.case_models.noise_matrix.recorded_stops import recorded_stops
 from pipeline.case_models.noise_matrix.sampling import Bands
 from pipeline.case_models.noise_matrix.schedule import Condition
-from pipeline.physics.stability.draw_statistics import third_octaves
+from pipeline.physics.stability.draws.draw_statistics import third_octaves
 from pipeline.products import Channel, NoiseEvents, Recording, Run
 from pipeline.products import Condition as Stated
 from tests.views.products_for_views import filled

@@ -8,9 +8,9 @@ import pytest
 
 from pipeline.case_models.noise_matrix.sampling import Bands, Draws, Group, at_temperature, families, pad_speeds
 from pipeline.case_models.noise_matrix.schedule import Condition
-from pipeline.case_models.scatter import FrictionErrors, Source
+from pipeline.case_models.scatter import FrictionErrors, Source, family
 from pipeline.contract import ConfigError
-from pipeline.physics.stability.draw_statistics import third_octaves
+from pipeline.physics.stability.draws.draw_statistics import third_octaves
 from pipeline.products import FrictionOverTemperature
 from tests.stages.small_oscillator import small_oscillator
 from tests.stages.small_structure import small_friction_map
@@ -58,7 +58,13 @@ def test_a_model_without_a_normal_law_needs_a_preload_at_the_pressure():
     points = SimpleNamespace(speeds=(1.0,), sliding_distance=0.0, friction=0.3, friction_at_rest=None, decay_speed=0.01,
                              damping_speed=1.0, friction_slopes=True, friction_damping=False, gyroscopic=True,
                              centrifugal=True)
-    made, = families([Group(1.0, 0.0, 1)], small_oscillator(on_belt=True), None, points, 293.0)
-    assert made.model.size == 1
+    directions = []
+
+    def of(model, state, friction_map, direction):
+        directions.append(direction)
+        return family(model, state, friction_map, points)
+
+    made, = families([Group(1.0, 0.0, -1)], small_oscillator(on_belt=True), None, of, 293.0)
+    assert made.model.size == 1 and directions == [-1]
     with pytest.raises(ConfigError, match="1 Pa.*2 Pa on the pads"):
-        families([Group(2.0, 0.0, 1)], small_oscillator(on_belt=True), None, points, 293.0)
+        families([Group(2.0, 0.0, 1)], small_oscillator(on_belt=True), None, of, 293.0)

@@ -19,8 +19,8 @@ from pipeline.diagnosis.published.line_hypotheses import (
     tones_of,
 )
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from stages.reduced_model import Settings as Reduction

@@ -7,8 +7,8 @@ import pytest
 
 from pipeline.case_models.scatter import family, stability_settings
 from pipeline.diagnosis.published.pressure_cycle import Cycle, cycle_fields, faded, no_cycle, swellings
-from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import whole_roots
+from pipeline.physics.stability.draws.scatter import NOMINAL
+from pipeline.physics.stability.draws.whole_roots import whole_roots
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from stages.reduced_model import Settings as Reduction

@@ -1,11 +1,14 @@
 """Growing roots by way of real modes, against all roots of the first-order system."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 import scipy
 
 from pipeline.physics.modal import growing_roots as growing
 from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
+from pipeline.physics.modal.quadratic_eigenproblem import quadratic_modes
 
 #: all rad/s: frequencies of the modes lie between these, roots are sought below the limit
 LOWEST, HIGHEST, LIMIT = 1e3, 2e5, 5e4
@@ -85,3 +88,38 @@ def test_where_the_bands_do_not_serve_all_roots_are_computed(monkeypatch):
 def test_no_mode_below_the_limit_is_no_root():
     modes = growing_roots(np.zeros((2, 2)), np.diag([1e8, 2e8]), np.zeros((2, 2), complex), 1e3)
     assert modes.value.shape == modes.residual.shape == (0,) and modes.shape.shape == (2, 0)
+
+
+@dataclass(frozen=True)
+class Remembered:
+    """A Settling: states that follow the motion of a few contacts late, and push."""
+
+    push: np.ndarray
+    by_place: np.ndarray
+    by_speed: np.ndarray
+    decay: np.ndarray
+
+    def projected(self, left, right):
+        return Remembered(left @ self.push, self.by_place @ right, self.by_speed @ right, self.decay)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("size", [50, 140])
+@pytest.mark.parametrize("pace", [0.02, 1.0, 30.0])
+def test_growing_roots_with_memory_are_those_of_the_system_with_its_states(pace, size):
+    """Memory slower than all modes, amid them, and quicker than they; the states join the first-order system."""
+    for seed in range(4):
+        rng = np.random.default_rng(seed + 50)
+        damping, stiffness, change = system(seed, 0.02, size)
+        strong = 0.1 * np.sqrt(np.linalg.norm(stiffness, 2))
+        beside = Remembered(strong * rng.standard_normal((size, 6)) / np.sqrt(size),
+                            strong * rng.standard_normal((6, size)) / np.sqrt(size),
+                            rng.standard_normal((6, size)) / np.sqrt(size), pace * np.geomspace(LOWEST, LIMIT, 6))
+        exact = quadratic_modes(np.eye(size), damping, stiffness + change.real, beside=beside).value
+        exact = exact[(exact.imag > abs(exact.real)) & (abs(exact) < LIMIT)]
+        for found in (growing_roots(damping, stiffness, change.real + 0j, LIMIT, beside),
+                      spectrum_roots(damping, stiffness, change.real + 0j, LIMIT, beside)):
+            for root in exact[exact.real > SURE * abs(exact)]:
+                assert abs(found.value - root).min() < 1e-7 * abs(root)
+            assert all(abs(exact - root).min() < 1e-7 * abs(root) for root in found.value)
+            assert found.residual.max() < 1e-3

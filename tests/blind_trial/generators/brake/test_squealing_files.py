@@ -10,8 +10,8 @@ from pipeline.blind_trial.generators.brake.squealing_brake import DRAWN, ONE_WAY
 from pipeline.case_models.scatter import family, stability_settings
 from pipeline.contract import documents
 from pipeline.diagnosis.published.line_hypotheses import on_rigid_disc
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.recordings.neutral import read_neutral
 from stages.complex_modes import complex_modes
 from stages.line_evidence import line_evidence

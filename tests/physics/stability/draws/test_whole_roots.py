@@ -7,9 +7,9 @@ import pytest
 import scipy
 
 from pipeline.physics.sliding.equilibrium import closure_response, model_about, steady_sliding
-from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import accuracy, beside_whole, whole_roots
-from tests.physics.stability.scattered_block import draws, family
+from pipeline.physics.stability.draws.scatter import NOMINAL
+from pipeline.physics.stability.draws.whole_roots import accuracy, beside_whole, whole_roots
+from tests.physics.stability.draws.scattered_block import draws, family
 
 
 @pytest.mark.exact

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from pipeline.physics.fem.mesh import block
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
-from pipeline.physics.stability.scatter import Factors, Family, Pivot
+from pipeline.physics.stability.draws.scatter import Factors, Family, Pivot
 
 LAW = np.linspace(0, 4e-6, 30), 2e11 * np.linspace(0, 4e-6, 30) + 1e17 * np.linspace(0, 4e-6, 30) ** 2
 

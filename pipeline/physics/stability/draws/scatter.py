@@ -14,7 +14,9 @@ from functools import partial
 
 import numpy as np
 
+from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
+from pipeline.physics.stability.draws.added_physics import AddedPhysics
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,15 @@ class Factors:
     friction: float = 0.0
     pressure_slope: float = 0.0
     speed_slope: float = 0.0
+
+    def filled(self, joints, bodies):
+        """The same for as many ``joints`` and ``bodies``, the first of which are its own; others stay as they are."""
+        def longer(values, count):
+            return values if np.ndim(values) == 0 or len(values) == count else np.append(
+                values, np.ones(count - len(values)))
+
+        return replace(self, joint_stiffness=longer(self.joint_stiffness, joints),
+                       joint_loss=longer(self.joint_loss, joints), body_loss=longer(self.body_loss, bodies))
 
 
 NOMINAL = Factors()
@@ -60,7 +71,7 @@ class Family:
     moduli (None: no lining), ``lining_loss_factor`` theirs; ``law_closure`` m and ``law_pressure`` Pa (k,) the normal
     law, none (k = 0) where contacts keep preload and stiffness of the model; ``friction``: function of pressure Pa and
     sliding speed m/s, each (c,), that gives a FrictionState; ``input_force`` (i,) N; ``damping_speed`` m/s. Switches as
-    those of ``complex_modes``.
+    those of ``complex_modes``. ``added``: what effects add beside the matrices, None without any.
     """
 
     model: SlidingModel
@@ -78,11 +89,30 @@ class Family:
     friction_damping: bool = True
     gyroscopic: bool = True
     centrifugal: bool = True
+    added: AddedPhysics | None = None
 
     @property
     def has_law(self):
         """Whether contact forces follow from a normal law."""
-        return len(self.law_closure) > 0
+        return self.law_added or len(self.law_closure) > 0
+
+    @property
+    def law_added(self):
+        """Whether contacts follow a law of effects."""
+        return self.added is not None and self.added.law is not None
+
+    def pressed(self, contacts, factors, closure):
+        """(force (c,) N, slope (c,) N/m) of Contacts by their law at ``closure`` (c,) m in a draw."""
+        if self.law_added:
+            force, slope = self.added.pressed(contacts.area, closure, factors.contact_stiffness)
+        else:
+            force, slope = force_at_rest(closure, contacts.area, self.law_closure / factors.contact_stiffness,
+                                         self.law_pressure)
+        return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
+
+    def filled(self, factors):
+        """The Factors of a draw for the joints and bodies of the model, of which effects may add some."""
+        return factors.filled(len(self.model.joints.name), len(self.model.body_name))
 
     def at_speed(self, speed):
         """The same at another speed of the drive, rad/s."""
@@ -104,6 +134,7 @@ class Family:
                        joint_loss_factor=lossier * self.joint_loss_factor,
                        law_closure=np.asarray(self.law_closure) / factors.contact_stiffness,
                        damping_speed=factors.damping_speed * self.damping_speed,
+                       added=self.added and self.added.varied(factors),
                        friction=partial(changed_friction, self.friction, self.pivot, factors))
 
     def imaginary_stiffness(self):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.physics.stability.draw_statistics import (
+from pipeline.physics.stability.draws.draw_statistics import (
     among_bands,
     band_of,
     draws_needed,

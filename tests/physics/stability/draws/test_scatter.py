@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.physics.sliding.model import FrictionState
-from pipeline.physics.stability.scatter import NOMINAL, Factors, Pivot, changed_friction
-from tests.physics.stability.scattered_block import family, friction
+from pipeline.physics.stability.draws.scatter import NOMINAL, Factors, Pivot, changed_friction
+from tests.physics.stability.draws.scattered_block import family, friction
 
 PRESSURE, SPEED = np.array([2e5, 1e6, 3e6]), np.array([1.0, 2.0, 3.0])
 

@@ -6,9 +6,13 @@ import numpy as np
 
 from pipeline.physics.modal.quadratic_eigenproblem import polished, quadratic_modes
 from pipeline.physics.sliding.equilibrium import closure_response, given_state, model_about, steady_sliding
-from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.sliding.model import FrictionState, spread
 from pipeline.physics.sliding.structural_damping import equivalent_damping
+from pipeline.physics.stability.draws.sampled_roots import about, with_slopes
+from pipeline.physics.stability.draws.sampled_sliding import whole_sliding
+from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.friction_basis import friction_basis
+from pipeline.physics.stability.linearisation import maxwell_branches
 from pipeline.physics.stability.refinement import moved_roots
 
 #: growth rates above this negative share of the frequency are solved for in the whole model
@@ -23,19 +27,23 @@ def whole_roots(family, factors, speed, below, smallest=1e-3):
     Its steady sliding, a basis of its own for a first estimate (corrections down to ``smallest``), then the roots with
     loss factors as imaginary stiffness. ``below`` Hz limits the modes. Errors as of these steps.
     """
-    varied = family.at_speed(speed).varied(factors)
-    about, friction = about_sliding(varied)
+    varied = family.at_speed(speed).varied(family.filled(factors))
+    model, friction, beside = about_sliding(varied)
     loss = varied.imaginary_stiffness()
-    mass, _, stiffness = about.frictionless(gyroscopic=False, centrifugal=False)
-    viscous = replace(about, damping=about.damping + equivalent_damping(loss, stiffness, mass))
-    basis = friction_basis(viscous, below, varied.friction_damping, smallest, centrifugal=varied.centrifugal).shape
+    mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
+    viscous = replace(model, damping=model.damping + equivalent_damping(loss, stiffness, mass))
+    branches, springs, _ = maxwell_branches(model)
+    others = spread(branches, springs, branches) if len(springs) else None
+    basis = friction_basis(viscous, below, varied.friction_damping, smallest, centrifugal=varied.centrifugal,
+                           others=others).shape
     modes = quadratic_modes(*viscous.projected(basis).linearised(
-        friction, varied.friction_damping, varied.gyroscopic, varied.centrifugal))
-    mass, damping, stiffness = about.linearised(friction, varied.friction_damping, varied.gyroscopic,
+        friction, varied.friction_damping, varied.gyroscopic, varied.centrifugal),
+        beside=beside and beside.projected(basis.T, basis))
+    mass, damping, stiffness = model.linearised(friction, varied.friction_damping, varied.gyroscopic,
                                                 varied.centrifugal)
     near = (modes.value.imag > abs(modes.value.real)) & (modes.value.real > -_NEARLY * abs(modes.value))
     near &= abs(modes.value) < 2 * np.pi * below
-    root = np.array([polished(mass, damping, stiffness + 1j * loss, s, basis @ x)[0]
+    root = np.array([polished(mass, damping, stiffness + 1j * loss, s, basis @ x, beside)[0]
                      for s, x in zip(modes.value[near], modes.right[:, near].T, strict=True)])
     return root[np.argsort(-root.real, kind="stable")]
 
@@ -61,9 +69,14 @@ def accuracy(compared):
 
 
 def about_sliding(varied):
-    """(SlidingModel about steady sliding, FrictionState of its linearisation)."""
-    sliding = sliding_state(varied)
-    return model_about(varied.model, sliding.contact, varied.damping_speed), linearising(varied, sliding.friction)
+    """(SlidingModel about steady sliding, FrictionState of its linearisation, what settles beside it or None)."""
+    if varied.added is None:
+        sliding = sliding_state(varied)
+        return (model_about(varied.model, sliding.contact, varied.damping_speed),
+                linearising(varied, sliding.friction), None)
+    contact = whole_sliding(varied).slide(NOMINAL, varied.model.speed)
+    model, friction, beside = about(varied, varied.model, NOMINAL, contact)
+    return with_slopes(model, contact.slopes), friction, beside
 
 
 def sliding_state(varied):

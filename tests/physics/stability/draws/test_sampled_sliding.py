@@ -6,9 +6,9 @@ import pytest
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.sliding.equilibrium import closure_response, steady_sliding
 from pipeline.physics.sliding.model import FrictionState
-from pipeline.physics.stability.sampled_sliding import sliding_basis
-from pipeline.physics.stability.scatter import NOMINAL, Factors
-from tests.physics.stability.scattered_block import draws, family
+from pipeline.physics.stability.draws.sampled_sliding import sliding_basis
+from pipeline.physics.stability.draws.scatter import NOMINAL, Factors
+from tests.physics.stability.draws.scattered_block import draws, family
 
 
 def whole(case, factors, speed):

@@ -19,9 +19,10 @@ from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
 from pipeline.physics.modal.natural_modes import all_modes
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
+from pipeline.physics.stability.draws.sampled_sliding import GivenSliding, SlidingBasis, element_rows, sliding_basis
+from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.friction_basis import friction_basis
-from pipeline.physics.stability.sampled_sliding import GivenSliding, SlidingBasis, sliding_basis
-from pipeline.physics.stability.scatter import NOMINAL
+from pipeline.physics.stability.linearisation import maxwell_branches, present
 
 #: what joins the basis for the training: amplitudes above this share of the mode
 _JOINING = 1e-4
@@ -64,11 +65,13 @@ class Sampled:
 
     def modes(self, factors, speed):
         """Growing: ``roots``, their shapes (m, r) on the basis and their residuals."""
-        return growing_roots(*self.matrices(factors, speed), 2 * np.pi * self.below)
+        matrices, beside = self.system(factors, speed)
+        return growing_roots(*matrices, 2 * np.pi * self.below, beside)
 
     def spectrum(self, factors, speed):
         """Growing of a draw as of ``modes``, from all its roots on the basis."""
-        return spectrum_roots(*self.matrices(factors, speed), 2 * np.pi * self.below)
+        matrices, beside = self.system(factors, speed)
+        return spectrum_roots(*matrices, 2 * np.pi * self.below, beside)
 
     def missed(self, factors, speed):
         """Number of growing roots of a draw that only one of ``modes`` and ``spectrum`` has."""
@@ -77,12 +80,17 @@ class Sampled:
         same = abs(some[:, None] - every) <= _SAME * abs(every)
         return int(np.sum(~same.any(axis=0)) + np.sum(~same.any(axis=1)))
 
-    def matrices(self, factors, speed):
-        """(C, K without friction and losses, what these add to it) of a draw about its sliding state, each (m, m), the
-        last complex."""
+    def system(self, factors, speed):
+        """((C, K without friction and losses, what these add to it) of a draw about its sliding state, each (m, m), the
+        last complex, what settles beside it or None)."""
+        factors = self.family.filled(factors)
         contact = self.sliding.slide(factors, speed)
         stiffness, imaginary = self._bodies(factors, speed)
-        pressed, drawn, drag = self._contacts(factors, speed, contact)
+        (pressed, drawn, drag), beside = self._contacts(factors, speed, contact)
+        if contact.slopes.size:
+            rows = element_rows(self.small)
+            pressed = pressed + spread(rows, contact.slopes[0], rows)
+            drag = drag + spread(rows, contact.slopes[1], rows)
         joints = self.small.joints
         damping = drag + self.small.damping
         if joints.damping.any():
@@ -90,7 +98,7 @@ class Sampled:
             damping = damping + spread(joints.rows, viscous, joints.rows)
         if self.family.gyroscopic:
             damping = damping + speed * self.small.gyroscopic
-        return damping, stiffness + pressed, drawn + 1j * imaginary
+        return (damping, stiffness + pressed, drawn + 1j * imaginary), beside
 
     def _bodies(self, factors, speed):
         """(real, imaginary) stiffness (m, m) N/m of bodies and joints of a draw."""
@@ -117,8 +125,9 @@ class Sampled:
         return self.lining.sum(axis=0)
 
     def _contacts(self, factors, speed, contact):
-        """(K without friction, K_f, C) (m, m) of the contacts of a draw, as of ``SlidingModel.linearised``."""
-        model, state = _about(self.family, self.small.at_speed(speed), factors, contact)
+        """((K without friction, K_f, C) (m, m) of the contacts of a draw, as of ``SlidingModel.linearised``, what
+        settles beside them or None)."""
+        model, state, beside = about(self.family, self.small.at_speed(speed), factors, contact)
         contacts, coupling = model.contacts, model.coupling(state)
         along = (coupling * contacts.damping)[:, None] * contacts.normal
         if np.any(state.speed_slope):
@@ -127,7 +136,7 @@ class Sampled:
         if self.family.friction_damping:
             drag += _squared(contacts.lateral, model.turning_drag(state.coefficient))
         return (_squared(contacts.normal, contact.stiffness),
-                spread(contacts.tangent, coupling * contact.stiffness, contacts.normal), drag)
+                spread(contacts.tangent, coupling * contact.stiffness, contacts.normal), drag), beside
 
 
 def sampled(family, speeds, below, training=(NOMINAL,), smallest=1e-2):
@@ -140,12 +149,14 @@ def sampled(family, speeds, below, training=(NOMINAL,), smallest=1e-2):
     if family.friction_damping and not np.all(speeds):
         raise ConfigError("probability: speeds", "speeds other than 0, with friction damping", "0 rad/s",
                           "leave it out, or set friction_damping to false")
+    training = [family.filled(factors) for factors in training]
     sliding = sliding_basis(family, speeds, training)
-    about, _ = _about(family, family.model.at_speed(middle), NOMINAL, sliding.slide(NOMINAL, middle))
-    basis = friction_basis(about, below, family.friction_damping, smallest, about.contacts.stiffness,
+    contact = sliding.slide(NOMINAL, middle)
+    model = with_slopes(about(family, family.model.at_speed(middle), NOMINAL, contact)[0], contact.slopes)
+    basis = friction_basis(model, below, family.friction_damping, smallest, model.contacts.stiffness,
                            family.centrifugal, _scattered(family)).shape
     first = _on(sliding, basis, below)
-    return _on(sliding, _joined(family.model.mass, basis, _missing(first, about, training, middle)), below)
+    return _on(sliding, _joined(family.model.mass, basis, _missing(first, model, training, middle)), below)
 
 
 def _on(sliding, basis, below):
@@ -168,16 +179,32 @@ def _squared(rows, weight):
     return half.T @ half
 
 
-def _about(family, model, factors, contact):
-    """(SlidingModel about a sliding state, FrictionState of its linearisation) of a draw."""
+def about(family, model, factors, contact):
+    """(SlidingModel about a sliding state, elements apart, FrictionState that acts at once, what settles beside it or
+    None) of a draw."""
     friction = contact.friction if family.friction_slopes else FrictionState(contact.friction.coefficient)
-    return model_about(model, contact, factors.damping_speed * family.damping_speed), friction
+    model = model_about(model, contact, factors.damping_speed * family.damping_speed)
+    if family.added is None:
+        return model, friction, None
+    if contact.damping is not None:
+        model = replace(model, contacts=replace(model.contacts, damping=contact.damping))
+    beside = family.added.beside(model, friction, contact.force)
+    return model, present(friction, family.added.states(model, contact.force)), beside
+
+
+def with_slopes(model, slopes):
+    """A SlidingModel with the ``slopes`` (2, e) N/m and N s/m of its elements among the matrices of the bodies."""
+    rows = element_rows(model)
+    return replace(model, stiffness=model.stiffness + spread(rows, slopes[0], rows),
+                   damping=model.damping + spread(rows, slopes[1], rows)) if slopes.size else model
 
 
 def _scattered(family):
     """(k, n, n) N/m: what else a draw changes: losses, linings, joints by the first part of their name."""
     joints = family.model.joints
     others = [family.imaginary_stiffness()] + ([] if family.lining is None else [family.lining])
+    branches, springs, _ = maxwell_branches(family.model)
+    others += [spread(branches, springs, branches)] * (len(springs) > 0)
     groups = np.array([name.split("_")[0] for name in joints.name])
     for group in dict.fromkeys(groups):
         rows = joints.rows[groups == group]
@@ -206,7 +233,7 @@ def _missing(first, about, training, speed):
 
 def _residual(family, factors, speed, contact, root, shape):
     """(n,) T(s) x in the whole model of a draw, for a root s and a shape x (n,)."""
-    model, state = _about(family, family.model.at_speed(speed), factors, contact)
+    model, state, beside = about(family, family.model.at_speed(speed), factors, contact)
     contacts, joints = model.contacts, model.joints
     normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
     pressed = (contacts.stiffness + root * contacts.damping) * normal
@@ -226,6 +253,12 @@ def _residual(family, factors, speed, contact, root, shape):
         force += speed**2 * (model.centrifugal @ shape)
     if family.lining is not None:
         force += (factors.lining - 1) * (1 + 1j * lost * family.lining_loss_factor) * (family.lining @ shape)
+    if contact.slopes.size:
+        rows = element_rows(model)
+        force += ((contact.slopes[0] + root * contact.slopes[1]) * (rows @ shape)) @ rows
+    if beside is not None:
+        heard = (beside.by_place + root * beside.by_speed) @ shape
+        force -= beside.push @ (heard / (root + beside.decay))
     return force
 
 

@@ -7,10 +7,10 @@ import scipy
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.two_mode_flutter import growth_rate, onset_friction
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
-from pipeline.physics.stability.sampled_roots import sampled
-from pipeline.physics.stability.scatter import NOMINAL, Factors, Family
-from pipeline.physics.stability.whole_roots import whole_roots
-from tests.physics.stability.scattered_block import draws, family
+from pipeline.physics.stability.draws.sampled_roots import sampled
+from pipeline.physics.stability.draws.scatter import NOMINAL, Factors, Family
+from pipeline.physics.stability.draws.whole_roots import whole_roots
+from tests.physics.stability.draws.scattered_block import draws, family
 
 K11, K22, K12, KF = 1.0e6, 1.3e6, 2e5, 8e5
 

@@ -2,24 +2,24 @@
 
 The equations are those of ``sliding.equilibrium``, for the motion q = S a,
 
-    S^T (K q - f - sum_i n_i N_i - t_i s_i mu_i N_i) = 0,    N_i = A_i p(-n_i q - g_i).
+    S^T (K q + F(q) - f - sum_i n_i N_i - t_i s_i mu_i N_i) = 0,    N_i = A_i p(-n_i q - g_i),
 
-S begins with the answers to the inputs and to the joints. While the balance of a training draw leaves a residual in the
-whole model, the answer to it joins S.
+F being what elements of effects rest on. S begins with the answers to the inputs, the joints and the elements. While
+the balance of a training draw leaves a residual in the whole model, the answer to it joins S.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.numerics.damped_newton import damped_newton
 from pipeline.physics.sliding.equilibrium import model_about
-from pipeline.physics.sliding.model import FrictionState, SlidingModel
-from pipeline.physics.stability.scatter import NOMINAL, Family, changed_friction
+from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
+from pipeline.physics.stability.draws.added_physics import resting, slopes_of_elements
+from pipeline.physics.stability.draws.scatter import NOMINAL, Family, changed_friction
 
 _ITERATIONS, _HALVINGS = 60, 12
 #: imbalance of a contact force, as a share of the largest, that ends Newton's method
@@ -33,11 +33,16 @@ _DEPENDENT, _TINY = 1e-12, np.finfo(float).tiny
 
 @dataclass(frozen=True)
 class Contact:
-    """``force`` (c,) N and ``stiffness`` (c,) N/m in steady sliding, and the FrictionState there."""
+    """``force`` (c,) N and ``stiffness`` (c,) N/m in steady sliding, and the FrictionState there.
+
+    ``damping`` (c,) N s/m by a law of effects, None without one; ``slopes`` (2, e) N/m and N s/m of the elements.
+    """
 
     force: np.ndarray
     stiffness: np.ndarray
     friction: FrictionState
+    damping: np.ndarray | None = None
+    slopes: np.ndarray = field(default_factory=lambda: np.zeros((2, 0)))
 
 
 @dataclass(frozen=True)
@@ -65,8 +70,14 @@ class SlidingBasis:
 
     def _contact_in(self, state, factors, speed):
         """Contact of a draw in its sliding state (s,)."""
-        force, slope = self._contact(factors, state)
-        return Contact(force, slope, _friction(self.family, factors, self.small.at_speed(speed), force))
+        family, small, (force, slope), damping = self.family, self.small.at_speed(speed), self._contact(
+            factors, state), None
+        friction = _friction(family, factors, small, force)
+        if family.law_added:
+            slope, damping = family.added.tangent(small.contacts.area, np.where(small.contacts.fixed, 0.0, force),
+                                                  factors)
+        drawn = small.direction() * friction.coefficient * force
+        return Contact(force, slope, friction, damping, slopes_of_elements(small, state, force, drawn))
 
     def solve(self, factors, speed):
         """Coordinates (s,) of the sliding state of a draw, by Newton's method."""
@@ -94,6 +105,7 @@ class SlidingBasis:
             held = held + (factors.lining - 1) * (family.lining @ motion)
         if family.centrifugal:
             held = held + speed**2 * (model.centrifugal @ motion)
+        held = held + resting(model, motion)[0]
         pushed = contact.force @ model.contacts.normal + drawn @ model.contacts.tangent
         return family.input_force @ model.input_rows + pushed - held
 
@@ -106,10 +118,8 @@ class SlidingBasis:
 
     def _contact(self, factors, state):
         """(force (c,) N, stiffness (c,) N/m) of the contacts."""
-        family, contacts = self.family, self.small.contacts
-        force, slope = force_at_rest(-(contacts.normal @ state + contacts.gap), contacts.area,
-                                    family.law_closure / factors.contact_stiffness, family.law_pressure)
-        return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
+        contacts = self.small.contacts
+        return self.family.pressed(contacts, factors, -(contacts.normal @ state + contacts.gap))
 
     def _miss(self, factors, small, stiffness, state):
         """(imbalance (s,), its derivative (s, s), contact forces (c,) and their slopes (c,))."""
@@ -120,7 +130,8 @@ class SlidingBasis:
         load = self.family.input_force @ small.input_rows + force @ contacts.normal
         load = load + (sign * friction.coefficient * force) @ contacts.tangent
         pulled = (contacts.normal.T * slope + contacts.tangent.T * (coupling * slope)) @ contacts.normal
-        return stiffness @ state - load, stiffness + pulled, force, slope
+        held, more = resting(small, state)
+        return stiffness @ state + held - load, stiffness + more + pulled, force, slope
 
 
 @dataclass(frozen=True)
@@ -137,9 +148,10 @@ class GivenSliding:
     def slide(self, factors, speed):
         """Contact of a draw at ``speed`` rad/s."""
         model = self.family.model.at_speed(speed)
-        contacts = model.contacts
-        return Contact(contacts.preload, factors.contact_stiffness * contacts.stiffness,
-                       _friction(self.family, factors, model, contacts.preload))
+        contacts, friction = model.contacts, _friction(self.family, factors, model, model.contacts.preload)
+        drawn = model.direction() * friction.coefficient * contacts.preload
+        return Contact(contacts.preload, factors.contact_stiffness * contacts.stiffness, friction, None,
+                       slopes_of_elements(model, np.zeros(model.size), contacts.preload, drawn))
 
 
 def sliding_basis(family, speeds, training=(NOMINAL,)):
@@ -151,13 +163,9 @@ def sliding_basis(family, speeds, training=(NOMINAL,)):
     if not family.has_law:
         return GivenSliding(family)
     model, contacts = family.model, family.model.contacts
-    springs = model.frictionless(centrifugal=False)[2]
-    factor = scipy.linalg.cho_factor(springs)
-    pressed = contacts.stiffness * (np.interp(contacts.pressure, family.law_pressure, family.law_closure)
-                                    + contacts.gap)
-    load = family.input_force @ model.input_rows
-    first = scipy.linalg.cho_solve(factor, load + (contacts.preload - pressed) @ contacts.normal)
-    answers = scipy.linalg.cho_solve(factor, np.vstack((model.input_rows, model.joints.rows)).T)
+    springs, (factor, first) = model.frictionless(centrifugal=False)[2], _first(family)
+    rows = [model.input_rows, model.joints.rows, *(e.row[None] for e in model.elements)]
+    answers = scipy.linalg.cho_solve(factor, np.vstack(rows).T)
     basis = _extended(family, springs, np.empty((model.size, 0)), np.column_stack((first, answers)), first)
     states, middle = [(factors, speed) for speed in speeds for factors in training], float(np.mean(speeds))
     for _ in range(_ROUNDS):
@@ -173,10 +181,43 @@ def sliding_basis(family, speeds, training=(NOMINAL,)):
                            f"{change.max():.2g} after {_ROUNDS} rounds", "narrow the scatter in probability.sources")
 
 
+def whole_sliding(family):
+    """SlidingBasis of a Family in its whole model, for a draw or two; GivenSliding without a normal law."""
+    if not family.has_law:
+        return GivenSliding(family)
+    model = family.model
+    _, first = _first(family)
+    return SlidingBasis(family, np.eye(model.size), model, family.lining, first)
+
+
+def _first(family):
+    """(Cholesky factor of the springs of a Family, its motion (n,) m with contact springs in place of their law)."""
+    model, contacts = family.model, family.model.contacts
+    factor = scipy.linalg.cho_factor(model.frictionless(centrifugal=False)[2])
+    pressed = contacts.stiffness * (_closure(family, contacts) + contacts.gap)
+    load = family.input_force @ model.input_rows
+    return factor, scipy.linalg.cho_solve(factor, load + (contacts.preload - pressed) @ contacts.normal)
+
+
+def _closure(family, contacts):
+    """(c,) m to begin with: closures of Contacts under their preload, by the table, or by their stiffness."""
+    if len(family.law_closure):
+        return np.interp(contacts.pressure, family.law_pressure, family.law_closure)
+    return np.divide(contacts.preload, contacts.stiffness, out=np.zeros(len(contacts.area)),
+                     where=contacts.stiffness > 0)
+
+
 def _tangent(family, contact, speed):
     """(n, n) N/m: stiffness of the nominal model about its sliding state, with friction."""
     model = model_about(family.model.at_speed(speed), contact)
-    return model.frictionless(centrifugal=family.centrifugal)[2] + model.friction_matrices(contact.friction, False)[1]
+    rows = element_rows(model)
+    return (model.frictionless(centrifugal=family.centrifugal)[2] + spread(rows, contact.slopes[0], rows)
+            + model.friction_matrices(contact.friction, False)[1])
+
+
+def element_rows(model):
+    """(e, n) rows of the elements of a SlidingModel."""
+    return np.array([e.row for e in model.elements]).reshape(-1, model.size)
 
 
 def _extended(family, springs, shape, answers, start):
