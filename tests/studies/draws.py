@@ -73,7 +73,7 @@ def cases(draws, seed, small=False):
 
 def beside(case, speed, neutral, factors):
     """Beside of a draw of Factors on the bases of a Sampled."""
-    damping, stiffness, change = case.matrices(factors, speed)
+    (damping, stiffness, change), _ = case.system(factors, speed)
     below, size = 2 * np.pi * case.below, len(damping)
     upper = np.hstack((np.zeros((size, size)), below * np.eye(size)))
     lower = -np.hstack(((stiffness + change) / below, damping))
