@@ -69,7 +69,8 @@ class Steady:
 
     def beside(self, model, slopes=True):
         """Settling of a model linearised ``about`` this state, in its coordinates; None where nothing settles."""
-        return None if self.states is None else settling(model, self._friction(slopes), self.states)
+        made = None if self.states is None else settling(model, self._friction(slopes), self.states)
+        return made if made is not None and made.decay.size else None
 
     def _friction(self, slopes):
         return self.friction if slopes else FrictionState(self.friction.coefficient)

@@ -91,7 +91,8 @@ def test_places_of_all_effects_are_checked():
 @pytest.mark.exact
 def test_a_share_of_the_friction_leaves_the_contacts_as_they_are():
     """All that friction adds to the matrices is that share of it, also what settles beside the motion."""
-    remembering = case({"falling_friction": {"contact": {"rise": 0.5, "decay_speed": "2 m/s"}}})
+    remembering = case({"falling_friction": {"contact": {"rise": 0.5, "decay_speed": "2 m/s"}},
+                        "contact_ageing": {"contact": {"share": 0.1, "speed": "2 m/s", "length": "1 mm"}}})
     whole = sliding(remembering)
     part, model = whole.with_share(0.3), whole.about(remembering.bench.model)
     assert part.contact is whole.contact and part.states is whole.states
@@ -99,7 +100,10 @@ def test_a_share_of_the_friction_leaves_the_contacts_as_they_are():
         assert full.any()
         np.testing.assert_allclose(less, 0.3 * full, atol=1e-12 * abs(full).max())
     none, less, full = (s.beside(model) for s in (whole.with_share(0.0), part, whole))
+    assert abs(full.push - none.push).max() > 0
     np.testing.assert_allclose(less.push - none.push, 0.3 * (full.push - none.push))
+    forgetful = case({"falling_friction": {"contact": {"rise": 0.5, "decay_speed": "2 m/s"}}})
+    assert sliding(forgetful).beside(forgetful.bench.model) is None
 
 
 def test_friction_of_a_map_is_read_at_one_distance():

@@ -1,9 +1,13 @@
-"""Every effect that acts on small motions acts alike in complex modes, in draws and in the whole model of a draw."""
+"""Every effect that acts on small motions acts alike in complex modes, in draws, in the whole model of a draw, and in
+the matrices that are exported."""
 
 import numpy as np
 import pytest
 
+from pipeline.case_models.matrices.sliding_terms import sliding_state, terms_of
 from pipeline.case_models.scatter import family, stability_settings
+from pipeline.contract import ConfigError
+from pipeline.physics.modal.quadratic_eigenproblem import polished
 from pipeline.physics.stability.draws.sampled_roots import sampled
 from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.draws.whole_roots import whole_roots
@@ -17,6 +21,9 @@ from tests.stages.small_structure import small_friction_map, small_structure
 LAW, SPEED = small_friction_map(0.45), 10.0
 #: what small motions of this brake do not feel: the stroke closes a clearance, a stop is not reached
 UNFELT = {"clearance", "impact"}
+#: what has states of its own beside the motion, which matrices of mass, damping and stiffness cannot hold
+REMEMBERING = {"contact_memory", "contact_ageing", "plateau_dynamics", "viscoelastic_pad", "shim_damping",
+               "hydraulic_compliance"}
 
 
 @pytest.fixture(scope="module")
@@ -34,6 +41,22 @@ def without(brake):
     return modes_of(brake, None).unstable_reduced
 
 
+def exported_at(modes, model, effects, operating):
+    """(M, C, K) as they are exported at an operating point; None where that is refused."""
+    try:
+        terms = terms_of(sliding_state(modes, model, LAW, effects, operating))
+    except ConfigError as error:
+        assert "effects with states of their own" in str(error)
+        return None
+    summed = {kind: sum(t.matrix for t in terms if t.kind == kind) for kind in ("mass", "damping", "stiffness", "loss")}
+    return summed["mass"], summed["damping"], summed["stiffness"] + 1j * summed["loss"]
+
+
+def root_near(matrices, root):
+    start = np.linalg.solve(root**2 * matrices[0] + root * matrices[1] + matrices[2], np.ones(len(matrices[0])))
+    return polished(*matrices, root * (1 + 1e-6), start)[0]
+
+
 def test_none_of_the_catalogue_is_left_out():
     assert set(VALUES) == SMALL
 
@@ -41,15 +64,18 @@ def test_none_of_the_catalogue_is_left_out():
 @pytest.mark.parametrize("name", sorted(SMALL))
 def test_the_middle_of_the_draws_is_what_complex_modes_say(brake, without, name):
     effects = acting(name)
-    modes = modes_of(brake, effects)
+    modes = modes_of(brake, effects)        # one speed: operating points are pressures
     points, grows = stability_settings(modes), modes.unstable_reduced
     for state in range(len(brake.pressure)):
         made = family(brake, state, LAW, points, effects)
         drawn = sampled(made, points.speeds, points.frequency_max).modes(NOMINAL, SPEED)
         whole = whole_roots(made, NOMINAL, SPEED, points.frequency_max)
         here = grows[(modes.unstable_operating == state) & (abs(grows) < 2 * np.pi * points.frequency_max)]
+        exported = exported_at(modes, brake, effects, state)
         for root in here:
             assert abs(drawn.value - root).min() < 1e-4 * abs(root) and abs(whole - root).min() < 1e-9 * abs(root)
+            assert exported is None or abs(root_near(exported, root) - root) < 1e-8 * abs(root)
+        assert (exported is None) is (name in REMEMBERING)
         assert np.sum(drawn.value.real > 5) == np.sum(here.real > 5) and drawn.residual.max() < 1.0
     changed = len(grows) != len(without) or bool(abs(grows - without).max() > 1e-7 * abs(without).max())
     assert changed is (name not in UNFELT), "an effect that changes nothing shows nothing"
