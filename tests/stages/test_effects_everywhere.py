@@ -13,22 +13,18 @@ from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.draws.whole_roots import whole_roots
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
-from stages.reduced_model import Settings as Reduction
-from stages.reduced_model import reduced_model
+from tests.stages.effect_table import FILE, page, reduced, remembers
 from tests.stages.effects_on_a_brake import SMALL, VALUES, acting
-from tests.stages.small_structure import small_friction_map, small_structure
+from tests.stages.small_structure import small_friction_map
 
 LAW, SPEED = small_friction_map(0.45), 10.0
 #: what small motions of this brake do not feel: the stroke closes a clearance, a stop is not reached
 UNFELT = {"clearance", "impact"}
-#: what has states of its own beside the motion, which matrices of mass, damping and stiffness cannot hold
-REMEMBERING = {"contact_memory", "contact_ageing", "plateau_dynamics", "viscoelastic_pad", "shim_damping",
-               "hydraulic_compliance"}
 
 
 @pytest.fixture(scope="module")
 def brake():
-    return reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz"))
+    return reduced()
 
 
 def modes_of(model, effects):
@@ -61,6 +57,10 @@ def test_none_of_the_catalogue_is_left_out():
     assert set(VALUES) == SMALL
 
 
+def test_the_table_of_the_documents_is_that_of_the_catalogue():
+    assert FILE.read_text(encoding="utf-8") == page(), "python -m tests.stages.effect_table"
+
+
 @pytest.mark.parametrize("name", sorted(SMALL))
 def test_the_middle_of_the_draws_is_what_complex_modes_say(brake, without, name):
     effects = acting(name)
@@ -75,7 +75,7 @@ def test_the_middle_of_the_draws_is_what_complex_modes_say(brake, without, name)
         for root in here:
             assert abs(drawn.value - root).min() < 1e-4 * abs(root) and abs(whole - root).min() < 1e-9 * abs(root)
             assert exported is None or abs(root_near(exported, root) - root) < 1e-8 * abs(root)
-        assert (exported is None) is (name in REMEMBERING)
+        assert (exported is None) is remembers(name)
         assert np.sum(drawn.value.real > 5) == np.sum(here.real > 5) and drawn.residual.max() < 1.0
     changed = len(grows) != len(without) or bool(abs(grows - without).max() > 1e-7 * abs(without).max())
     assert changed is (name not in UNFELT), "an effect that changes nothing shows nothing"
