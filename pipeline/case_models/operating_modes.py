@@ -109,14 +109,15 @@ def unstable_fields(outcomes, model, bodies):
     shapes = np.array([_normalised(shape) for shape in shapes]).reshape(shapes.shape)
     growth = [o.terms[k] for _, o, k in unstable]
     terms = list(growth[0]) if unstable else []
+    owners = [_owner(term) for term in terms]
     roots, reduced, residual = ([getattr(o, name)[k] for _, o, k in unstable]
                                 for name in ("near", "reduced", "residual"))
     return {"unstable_operating": [number for number, *_ in unstable], "unstable_root": roots,
             "unstable_reduced": reduced, "unstable_residual": residual, "unstable_shape": shapes,
             "unstable_diameters": diameters(model, shapes), **planes(model, shapes), "body_name": names,
             "unstable_share": np.reshape([o.shares[k] for _, o, k in unstable], (count, len(names))),
-            "growth_term": terms, "growth_owner": [_owner(term)[0] for term in terms],
-            "growth_part": [_owner(term)[1] for term in terms],
+            "growth_term": terms, "growth_owner": [owner for owner, _ in owners],
+            "growth_part": [part for _, part in owners],
             "unstable_growth": np.reshape([list(g.values()) for g in growth], (count, len(terms))),
             "unstable_contact": np.reshape([o.contacts[k] for _, o, k in unstable], (count, len(model.contact_area))),
             "unstable_first": first_of_each(np.array(roots, complex))}

@@ -25,7 +25,14 @@ from pipeline.physics.sliding.equilibrium import (
 from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
 from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
 from pipeline.physics.stability.full_roots import sliding_as
-from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, present, settling
+from pipeline.physics.stability.linearisation import (
+    beside_motion,
+    element_slopes,
+    friction_about,
+    maxwell_branches,
+    present,
+    with_slopes,
+)
 from pipeline.physics.time_stepping.elements import Turning, bears
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.normal_laws import tangent
@@ -50,11 +57,7 @@ class Steady:
         """A SlidingModel linearised about it: contacts, and elements, whose slopes join the matrices of the bodies."""
         contacts = replace(model.contacts, preload=self.contact.force, stiffness=self.contact.stiffness,
                            damping=self.damping)
-        if not model.elements:
-            return replace(model, contacts=contacts)
-        rows = np.array([e.row for e in model.elements])
-        return replace(model, contacts=contacts, stiffness=model.stiffness + spread(rows, self.slopes[0], rows),
-                       damping=model.damping + spread(rows, self.slopes[1], rows))
+        return with_slopes(replace(model, contacts=contacts), self.slopes)
 
     def acting(self, slopes=True):
         """FrictionState that acts at once; without ``slopes`` that of a constant coefficient."""
@@ -69,8 +72,7 @@ class Steady:
 
     def beside(self, model, slopes=True):
         """Settling of a model linearised ``about`` this state, in its coordinates; None where nothing settles."""
-        made = None if self.states is None else settling(model, self._friction(slopes), self.states)
-        return made if made is not None and made.decay.size else None
+        return None if self.states is None else beside_motion(model, self._friction(slopes), self.states)
 
     def _friction(self, slopes):
         return self.friction if slopes else FrictionState(self.friction.coefficient)

@@ -73,7 +73,7 @@ def growing_roots(damping, stiffness, change, limit, beside=None):
     whole = np.ones(len(square)), damping, stiffness + change
     try:
         modes = _in_real_modes(damping, change, square, real.astype(np.float32))
-        memory = _Memory.of(beside, real)
+        memory = beside and beside.projected(real.T, real)
         return _solved(_bands(*modes, np.sqrt(np.maximum(square, 0.0)), limit, memory), real, whole, limit, beside)
     except (ConvergenceError, np.linalg.LinAlgError):
         return _of_all(square, real, whole, change, limit, beside)
@@ -88,48 +88,24 @@ def spectrum_roots(damping, stiffness, change, limit, beside=None):
 
 
 def _of_all(square, real, whole, change, limit, beside):
-    modes, memory = _in_real_modes(whole[1], change, square, real), _Memory.of(beside, real)
+    modes, memory = _in_real_modes(whole[1], change, square, real), beside and beside.projected(real.T, real)
     ends = [0.0, limit] if memory is None else _octaves(limit)
     bands = [(_Low.of(*_remembering(modes, memory, (low + high) / 2), len(square), 0.0), low, high)
              for low, high in pairwise(ends)]
     return _solved(bands, real, whole, limit, beside, every=True)
 
 
-@dataclass(frozen=True)
-class _Memory:
-    """A Settling in real modes: ``push`` (m, k), ``by_place`` and ``by_speed`` (k, m), ``decay`` (k,)."""
-
-    push: np.ndarray
-    by_place: np.ndarray
-    by_speed: np.ndarray
-    decay: np.ndarray
-
-    @classmethod
-    def of(cls, beside, real):
-        """Of a Settling, None where nothing settles, in the real modes (m, m)."""
-        if beside is None or not beside.decay.size:
-            return None
-        return cls(real.T @ beside.push, beside.by_place @ real, beside.by_speed @ real, beside.decay)
-
-    def at(self, pace):
-        """(C, K) real (m, m) that stand for it at the frequency ``pace`` rad/s."""
-        answer = 1 / (1j * pace + self.decay)
-        drawn = -(self.push * answer) @ (self.by_place + 1j * pace * self.by_speed)
-        return drawn.imag / pace, drawn.real
-
-
 def _octaves(limit):
-    """Ends in rad/s of bands over which what a _Memory answers is taken as it is at their middles."""
+    """Ends in rad/s of bands over which what settles beside the modes answers as at their middles."""
     return [0.0, *(limit / 2.0 ** np.arange(_OCTAVES, -1, -1))]
 
 
 def _remembering(modes, memory, pace):
-    """(C, K) of ``modes``, with what a _Memory, or None, adds at a frequency ``pace`` rad/s."""
+    """(C, K) of ``modes``, with real ones that stand for a Settling ``memory``, or None, at ``pace`` rad/s."""
     if memory is None:
         return modes
-    damping, stiffness = modes
-    drag, spring = memory.at(pace)
-    return damping + drag.astype(damping.dtype), stiffness + spring.astype(damping.dtype)
+    (damping, stiffness), (answer, _) = modes, memory.answers(1j * pace)
+    return damping - (answer.imag / pace).astype(damping.dtype), stiffness - answer.real.astype(damping.dtype)
 
 
 def _in_real_modes(damping, change, square, real):
@@ -143,7 +119,7 @@ def _in_real_modes(damping, change, square, real):
 
 def _bands(damping, stiffness, pace, limit, memory=None):
     """[(condensed problem, its lower, its upper end in rad/s)] that cover the frequencies to the ``limit``; ``pace``
-    (m,) rad/s are those of the real modes; ``memory``: a _Memory or None."""
+    (m,) rad/s are those of the real modes; ``memory``: a Settling in real modes or None."""
     modes, ends = (damping, stiffness), limit * np.geomspace(_LOW, 1.0, _BANDS + 1)
     if len(pace) <= _FEW:
         whole = [0.0, limit] if memory is None else _octaves(limit)

@@ -141,23 +141,16 @@ class DenseFactors:
 
 def operator(mass, damping, stiffness, s, beside, x=None):
     """T(s) = s^2 M + s C + K less what settles beside it, and dT/ds; both times ``x`` where it is given."""
-    settles = beside is not None and beside.decay.size
-    if settles:
-        answer, push = 1 / (s + beside.decay), beside.push
-        heard = beside.by_place + s * beside.by_speed
+    force, turn = (0.0, 0.0) if beside is None else beside.answers(s, x)
     if x is None:
         if mass.ndim == 1:
             whole = s * damping + stiffness
             whole[np.diag_indices(len(mass))] += s**2 * mass
         else:
             whole = s**2 * mass + s * damping + stiffness
-        return (whole - (push * answer) @ heard if settles else whole), None
+        return (whole if beside is None else whole - force), None
     inertia, drag = product(mass, x), product(damping, x)
-    missing, slope = s**2 * inertia + s * drag + product(stiffness, x), 2 * s * inertia + drag
-    if settles:
-        missing = missing - push @ (answer * (heard @ x))
-        slope = slope - push @ (answer * (beside.by_speed @ x - answer * (heard @ x)))
-    return missing, slope
+    return s**2 * inertia + s * drag + product(stiffness, x) - force, 2 * s * inertia + drag - turn
 
 
 def by_frequency(roots):

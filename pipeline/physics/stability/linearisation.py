@@ -5,7 +5,7 @@
 z are the Maxwell branches of elements and the states of friction that settle in steady sliding, R diagonal.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import parts
 from pipeline.physics.friction.state_kernels import MEMORY, PLATEAUS, SETTLING, factor_slope, rate_slopes
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
-from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.sliding.model import FrictionState, spread
 from pipeline.physics.time_stepping.coupled_solver import no_memory
 from pipeline.physics.time_stepping.element_forces import BOUC_WEN, FRICTION, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import Maxwell, alone
@@ -32,6 +32,15 @@ class Settling:
     def projected(self, left, right):
         """The same for q = ``right`` r, (n, m), and equations tested by ``left`` (m, n)."""
         return Settling(left @ self.push, self.by_place @ right, self.by_speed @ right, self.decay)
+
+    def answers(self, s, x=None):
+        """(B (P + s V) / (s + R) (n, n), None) at ``s`` 1/s; that and its slope over s, each times ``x`` (n,), where it
+        is given."""
+        answer, heard = 1 / (s + self.decay), self.by_place + s * self.by_speed
+        if x is None:
+            return (self.push * answer) @ heard, None
+        told = heard @ x
+        return self.push @ (answer * told), self.push @ (answer * (self.by_speed @ x - answer * told))
 
 
 def friction_about(friction, speed, load, area):
@@ -78,6 +87,12 @@ def settling(model, friction, states):
                     np.vstack((rate, springs[:, None] * branches)), np.append(decay, 1 / times))
 
 
+def beside_motion(model, friction, states):
+    """``settling``; None where nothing settles."""
+    made = settling(model, friction, states)
+    return made if made.decay.size else None
+
+
 def _of_friction(contacts, sign, speed, friction, states, value):
     """(B, P, V, R) of the states of friction that settle: memory of the load, of the speed, and factors."""
     push, place, rate, decay = [], [], [], []
@@ -113,13 +128,27 @@ def maxwell_branches(model):
     return np.array(rows, float).reshape(-1, model.size), np.array(springs, float), np.array(times, float)
 
 
+def element_rows(model):
+    """(e, n) rows of the elements of a SlidingModel."""
+    return np.array([e.row for e in model.elements]).reshape(-1, model.size)
+
+
+def with_slopes(model, slopes):
+    """A SlidingModel with the ``slopes`` (2, e) N/m and N s/m of its elements among the matrices of the bodies."""
+    if not model.elements:
+        return model
+    rows = element_rows(model)
+    return replace(model, stiffness=model.stiffness + spread(rows, slopes[0], rows),
+                   damping=model.damping + spread(rows, slopes[1], rows))
+
+
 def element_slopes(model, start, slip):
     """(rows (e, n), stiffness (e,), damping (e,)) of the elements about a Start, contacts slipping at ``slip`` (c,).
 
     Dry friction sticks or slides through zero, which no matrix says, and counts as nothing. A law of Bouc and Wen is as
     stiff as where it begins: small cycles about a load creep until they are centred.
     """
-    kernel, rows = alone(model.elements), np.array([e.row for e in model.elements]).reshape(-1, model.size)
+    kernel, rows = alone(model.elements), element_rows(model)
     memory = no_memory(kernel) if start.memory is None else start.memory
     update_turning_dampers(kernel, start.friction, slip, np.zeros(len(rows)))
     slopes = np.zeros((2, len(rows)))

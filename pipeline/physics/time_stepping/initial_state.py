@@ -80,6 +80,13 @@ def _waves(contacts):
 
 def _drawn(elements, model, displacement):
     """(F - S q (n,), S (n, n), memory) of the elements at rest at ``displacement`` (n,), S the slope of F there."""
+    rows, force, slope, memory = forces_at_rest(elements, model, displacement)
+    return rows.T @ (force - slope * (rows @ displacement)), (rows.T * slope) @ rows, memory
+
+
+def forces_at_rest(elements, model, displacement):
+    """(rows (e, n), forces (e,) N, their slopes (e,) N/m, memory) of the ``elements`` of a SlidingModel, an
+    ElementKernel, at rest at ``displacement`` (n,) m; dry friction has none there."""
     rows = np.array([e.row for e in model.elements])
     memory, none = no_memory(elements), no_memory(elements)
     force, slope = np.zeros((2, len(rows)))
@@ -87,7 +94,7 @@ def _drawn(elements, model, displacement):
         if elements.kind[k] not in FRICTION:
             force[k], slope[k], _ = element_force(elements, k, float(row @ displacement), 0.0, 0.0, none, memory,
                                                   (0.0, 0.0, model.speed))
-    return rows.T @ (force - slope * (rows @ displacement)), (rows.T * slope) @ rows, memory
+    return rows, force, slope, memory
 
 
 def random_kick(system, sensor_rows, velocity, seed):

@@ -1,7 +1,5 @@
 """Growing roots by way of real modes, against all roots of the first-order system."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 import scipy
@@ -9,6 +7,7 @@ import scipy
 from pipeline.physics.modal import growing_roots as growing
 from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_modes
+from pipeline.physics.stability.linearisation import Settling
 
 #: all rad/s: frequencies of the modes lie between these, roots are sought below the limit
 LOWEST, HIGHEST, LIMIT = 1e3, 2e5, 5e4
@@ -90,19 +89,6 @@ def test_no_mode_below_the_limit_is_no_root():
     assert modes.value.shape == modes.residual.shape == (0,) and modes.shape.shape == (2, 0)
 
 
-@dataclass(frozen=True)
-class Remembered:
-    """A Settling: states that follow the motion of a few contacts late, and push."""
-
-    push: np.ndarray
-    by_place: np.ndarray
-    by_speed: np.ndarray
-    decay: np.ndarray
-
-    def projected(self, left, right):
-        return Remembered(left @ self.push, self.by_place @ right, self.by_speed @ right, self.decay)
-
-
 @pytest.mark.exact
 @pytest.mark.parametrize("pace, size", [(0.02, 50), (1.0, 50), (30.0, 50), (1.0, 140)])
 def test_growing_roots_with_memory_are_those_of_the_system_with_its_states(pace, size):
@@ -111,7 +97,7 @@ def test_growing_roots_with_memory_are_those_of_the_system_with_its_states(pace,
         rng = np.random.default_rng(seed + 50)
         damping, stiffness, change = system(seed, 0.02, size)
         strong = 0.1 * np.sqrt(np.linalg.norm(stiffness, 2))
-        beside = Remembered(strong * rng.standard_normal((size, 6)) / np.sqrt(size),
+        beside = Settling(strong * rng.standard_normal((size, 6)) / np.sqrt(size),
                             strong * rng.standard_normal((6, size)) / np.sqrt(size),
                             rng.standard_normal((6, size)) / np.sqrt(size), pace * np.geomspace(LOWEST, LIMIT, 6))
         exact = quadratic_modes(np.eye(size), damping, stiffness + change.real, beside=beside).value

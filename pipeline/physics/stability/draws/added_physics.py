@@ -10,11 +10,9 @@ import numpy as np
 
 from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.contact.groups import parts
-from pipeline.physics.friction.state_kernels import SETTLING
-from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, settling
-from pipeline.physics.time_stepping.coupled_solver import no_memory
-from pipeline.physics.time_stepping.element_forces import FRICTION, element_force
+from pipeline.physics.stability.linearisation import element_slopes, friction_about
 from pipeline.physics.time_stepping.elements import alone
+from pipeline.physics.time_stepping.initial_state import forces_at_rest
 from pipeline.physics.time_stepping.normal_laws import Penalty, tangent
 from pipeline.physics.time_stepping.simulate import Start
 
@@ -55,13 +53,6 @@ class AddedPhysics:
         stiffness, damping = tangent(self.law, force, area)
         return factors.contact_stiffness * self.steeper * stiffness, damping / (factors.damping_speed * self.faster)
 
-    def beside(self, model, friction, load):
-        """Settling of a SlidingModel ``model`` about its sliding state, where the contacts carry a ``load`` (c,) N
-        with a FrictionState; None where nothing settles."""
-        states = self.states(model, load)
-        settles = np.isin(states[0].kind, SETTLING).any() or len(maxwell_branches(model)[1])
-        return settling(model, friction, states) if settles else None
-
     def states(self, model, load):
         """(StateKernel, values) of friction in steady sliding of a SlidingModel under a ``load`` (c,) N."""
         return friction_about(self.friction, model.sliding_speed, load, model.contacts.area)[1]
@@ -78,12 +69,7 @@ def resting(model, place):
     it."""
     if not model.elements:
         return 0.0, 0.0
-    kernel, rows = alone(model.elements), np.array([e.row for e in model.elements])
-    force, slope, memory = np.zeros(len(rows)), np.zeros(len(rows)), no_memory(kernel)
-    for k, row in enumerate(rows):
-        if kernel.kind[k] not in FRICTION:
-            force[k], slope[k], _ = element_force(kernel, k, float(row @ place), 0.0, 0.0, memory, memory.copy(),
-                                                  (0.0, 0.0, model.speed))
+    rows, force, slope, _ = forces_at_rest(alone(model.elements), model, place)
     return force @ rows, (rows.T * slope) @ rows
 
 

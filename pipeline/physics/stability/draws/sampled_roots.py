@@ -19,10 +19,10 @@ from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
 from pipeline.physics.modal.natural_modes import all_modes
 from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
-from pipeline.physics.stability.draws.sampled_sliding import GivenSliding, SlidingBasis, element_rows, sliding_basis
+from pipeline.physics.stability.draws.sampled_sliding import GivenSliding, SlidingBasis, sliding_basis
 from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.friction_basis import friction_basis
-from pipeline.physics.stability.linearisation import maxwell_branches, present
+from pipeline.physics.stability.linearisation import beside_motion, element_rows, maxwell_branches, present, with_slopes
 
 #: what joins the basis for the training: amplitudes above this share of the mode
 _JOINING = 1e-4
@@ -188,15 +188,8 @@ def about(family, model, factors, contact):
         return model, friction, None
     if contact.damping is not None:
         model = replace(model, contacts=replace(model.contacts, damping=contact.damping))
-    beside = family.added.beside(model, friction, contact.force)
-    return model, present(friction, family.added.states(model, contact.force)), beside
-
-
-def with_slopes(model, slopes):
-    """A SlidingModel with the ``slopes`` (2, e) N/m and N s/m of its elements among the matrices of the bodies."""
-    rows = element_rows(model)
-    return replace(model, stiffness=model.stiffness + spread(rows, slopes[0], rows),
-                   damping=model.damping + spread(rows, slopes[1], rows)) if slopes.size else model
+    states = family.added.states(model, contact.force)
+    return model, present(friction, states), beside_motion(model, friction, states)
 
 
 def _scattered(family):
@@ -257,8 +250,7 @@ def _residual(family, factors, speed, contact, root, shape):
         rows = element_rows(model)
         force += ((contact.slopes[0] + root * contact.slopes[1]) * (rows @ shape)) @ rows
     if beside is not None:
-        heard = (beside.by_place + root * beside.by_speed) @ shape
-        force -= beside.push @ (heard / (root + beside.decay))
+        force -= beside.answers(root, shape)[0]
     return force
 
 

@@ -17,9 +17,10 @@ import scipy
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.numerics.damped_newton import damped_newton
 from pipeline.physics.sliding.equilibrium import model_about
-from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
+from pipeline.physics.sliding.model import FrictionState, SlidingModel
 from pipeline.physics.stability.draws.added_physics import resting, slopes_of_elements
 from pipeline.physics.stability.draws.scatter import NOMINAL, Family, changed_friction
+from pipeline.physics.stability.linearisation import with_slopes
 
 _ITERATIONS, _HALVINGS = 60, 12
 #: imbalance of a contact force, as a share of the largest, that ends Newton's method
@@ -209,15 +210,8 @@ def _closure(family, contacts):
 
 def _tangent(family, contact, speed):
     """(n, n) N/m: stiffness of the nominal model about its sliding state, with friction."""
-    model = model_about(family.model.at_speed(speed), contact)
-    rows = element_rows(model)
-    return (model.frictionless(centrifugal=family.centrifugal)[2] + spread(rows, contact.slopes[0], rows)
-            + model.friction_matrices(contact.friction, False)[1])
-
-
-def element_rows(model):
-    """(e, n) rows of the elements of a SlidingModel."""
-    return np.array([e.row for e in model.elements]).reshape(-1, model.size)
+    model = with_slopes(model_about(family.model.at_speed(speed), contact), contact.slopes)
+    return model.frictionless(centrifugal=family.centrifugal)[2] + model.friction_matrices(contact.friction, False)[1]
 
 
 def _extended(family, springs, shape, answers, start):

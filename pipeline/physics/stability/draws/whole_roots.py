@@ -8,11 +8,11 @@ from pipeline.physics.modal.quadratic_eigenproblem import polished, quadratic_mo
 from pipeline.physics.sliding.equilibrium import closure_response, given_state, model_about, steady_sliding
 from pipeline.physics.sliding.model import FrictionState, spread
 from pipeline.physics.sliding.structural_damping import equivalent_damping
-from pipeline.physics.stability.draws.sampled_roots import about, with_slopes
+from pipeline.physics.stability.draws.sampled_roots import about
 from pipeline.physics.stability.draws.sampled_sliding import whole_sliding
 from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.friction_basis import friction_basis
-from pipeline.physics.stability.linearisation import maxwell_branches
+from pipeline.physics.stability.linearisation import maxwell_branches, with_slopes
 from pipeline.physics.stability.refinement import moved_roots
 
 #: growth rates above this negative share of the frequency are solved for in the whole model

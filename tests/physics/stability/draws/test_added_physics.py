@@ -10,6 +10,7 @@ from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.friction.state_variables import Memory
 from pipeline.physics.stability.draws.added_physics import AddedPhysics, acting, resting, slopes_of_elements
 from pipeline.physics.stability.draws.scatter import NOMINAL, Factors
+from pipeline.physics.stability.linearisation import beside_motion
 from pipeline.physics.time_stepping.elements import Element, Maxwell, Polynomial
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from tests.physics.stability.draws.scattered_block import LAW, family
@@ -61,12 +62,16 @@ def test_only_what_remembers_settles_beside_the_motion():
     about = acting(plain.friction, model.direction(), model.contacts.area, load / model.contacts.area,
                    abs(model.sliding_speed))
     np.testing.assert_allclose(about.coefficient, 0.4)
-    assert plain.beside(model, about, load) is None
+
+    def beside(added, model):
+        return beside_motion(model, about, added.states(model, load))
+
+    assert beside(plain, model) is None
     remembering = AddedPhysics(constant(0.4).with_state(Memory(1e-3)))
-    assert remembering.beside(model, about, load).decay.size == 2 * count
+    assert beside(remembering, model).decay.size == 2 * count
     branch = replace(model, elements=(Element("pad", model.joints.rows[0], Maxwell(np.array([1e6]),
                                                                                   np.array([1e-4]))),))
-    np.testing.assert_allclose(plain.beside(branch, about, load).decay, [1e4])
+    np.testing.assert_allclose(beside(plain, branch).decay, [1e4])
 
 
 def test_factors_leave_joints_of_effects_as_they_are():
