@@ -4,15 +4,13 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models import effect_block
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.sensitivity import differences as again
 from pipeline.case_models.sensitivity import remedies
 from pipeline.case_models.sensitivity.derivatives import LEFT_OUT, derivatives, scatter_of
-from pipeline.case_models.sensitivity.few_coordinates import without_surface
-from pipeline.case_models.sensitivity.matrices import Case
+from pipeline.case_models.sensitivity.matrices import Case, without_surface
 from pipeline.case_models.sensitivity.parameters import parameters
-from pipeline.contract import ConfigError, Context, Section, Variants, option, stage
+from pipeline.contract import Context, Section, Variants, option, stage
 from pipeline.physics.sliding.model import at_state
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel, Sensitivities, Structure
 
@@ -21,8 +19,7 @@ class Settings(Section):
     """Which modes, which values, and what is assumed of their scatter."""
 
     modes: int | None = option(None, "unstable modes, strongest first, those of one frequency counting once; none ="
-                                     " all, of a case with effects, which are not differentiated, no one; 0 = no"
-                                     " sensitivities", ge=0)
+                                     " all; 0 = no sensitivities", ge=0)
     differences: tuple[again.Difference, ...] = option(
         (), "settings of stages up to reduced_model for which the case is computed twice more, such as"
             " structure.disc.ring_thickness, with their scatter")
@@ -32,17 +29,11 @@ class Settings(Section):
 
 def _check(sections):
     again.check_differences(sections, "sensitivities.differences")
-    _asked(sections["sensitivities"], _effects(sections))
 
 
 def _variants(sections):
     """The case with each of the differences up and down, without a friction sweep, in the reduced model alone."""
-    asked = _asked(sections["sensitivities"], _effects(sections))
-    return again.raised_and_lowered(sections) if asked != 0 else {}
-
-
-def _effects(sections):
-    return effect_block.product(sections["effects"]) if "effects" in sections else None
+    return again.raised_and_lowered(sections) if sections["sensitivities"].modes != 0 else {}
 
 
 @stage(check=_check, variants=_variants)
@@ -60,10 +51,10 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     the case declares it or {unstated_scatter} of the value. Up to {remedies} values were changed until the strongest
     mode no longer grows in the reduced model.
     """
-    points, chosen = stability_settings(modes), _chosen(modes, _asked(settings, effects))
+    points, chosen = stability_settings(modes), _chosen(modes, settings.modes)
     where = modes.unstable_operating[chosen]
     tasks = [(operating, chosen[where == operating]) for operating in dict.fromkeys(where.tolist())]
-    given = model, structure, friction_map, modes, points
+    given = (model, effects), structure, friction_map, modes, points
     solved = zip(tasks, context.map(partial(_at_operating_point, *given), tasks, "operating points"), strict=True)
     found = {int(mode): (each, k) for (_, members), each in solved for k, mode in enumerate(members)}
     rows = [found[int(mode)] for mode in chosen]
@@ -78,32 +69,25 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
         left_out=list(LEFT_OUT), left_out_reason=list(LEFT_OUT.values()))
 
 
-def _asked(settings, effects):
-    """How many modes, None for all. ConfigError where some are asked for beside effects."""
-    terms = effect_block.physics_terms(effects)
-    if terms and settings.modes:
-        raise ConfigError("sensitivities.modes", "0 in a case with effects, which are not differentiated",
-                          f"{settings.modes}, and {', '.join(term.effect.name for term in terms)}", "leave it out")
-    return 0 if terms else settings.modes
-
-
 def _chosen(modes, count):
     """Indices of up to ``count`` modes, strongest first."""
     first = np.flatnonzero(modes.unstable_first == np.arange(len(modes.unstable_first)))
     return first[:count]
 
 
-def _case(model, modes, points, operating):
-    """(Case at an operating point, mean coefficient of friction there)."""
+def _case(brake, modes, points, operating):
+    """(Case of the products ReducedModel and Effects, or None, at an operating point, mean friction there)."""
+    (model, effects) = brake
     state, speed = divmod(int(operating), len(points.speeds))
-    case = Case(without_surface(at_state(model, state)), state, points.speeds[speed])
+    case = Case(without_surface(at_state(model, state)), state, points.speeds[speed],
+                effects=effects)
     return case, float(modes.operating_friction[operating])
 
 
-def _at_operating_point(model, structure, friction_map, modes, points, task):
+def _at_operating_point(brake, structure, friction_map, modes, points, task):
     """Derivatives of the modes of a task (operating point, their indices)."""
     operating, members = task
-    case, friction = _case(model, modes, points, operating)
+    case, friction = _case(brake, modes, points, operating)
     return derivatives(case, modes.unstable_reduced[members], structure, friction, friction_map, points)
 
 
@@ -158,9 +142,9 @@ def _remedies(rows, solve, settings, context):
             "remedy_root": np.array(root, complex)}
 
 
-def _tried(model, structure, friction_map, modes, points, operating, task):
+def _tried(brake, structure, friction_map, modes, points, operating, task):
     """What a task (index of a value, root, shape, slope) comes to, as of ``stabilised``."""
     number, root, shape, slope = task
-    case, friction = _case(model, modes, points, operating)
+    case, friction = _case(brake, modes, points, operating)
     value = parameters(case, structure, friction, points)[number]
     return remedies.stabilised(case, root, shape, value, slope, friction_map, points)

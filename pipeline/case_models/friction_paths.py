@@ -6,10 +6,11 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.physics.sliding.model import congruent, runs
+from pipeline.physics.sliding.model import congruent
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import FrictionSystem, enriched, friction_path
 from pipeline.physics.stability.growth_balance import body_shares
+from pipeline.physics.system.system import runs
 from pipeline.products.motion import COUPLING, FALLING, SINGLE
 
 #: difference of two frequencies, as a share of them, that is rounding next to a coalescence

@@ -22,7 +22,7 @@ from pipeline.physics.sliding.equilibrium import (
     given_state,
     steady_sliding,
 )
-from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
+from pipeline.physics.sliding.model import FrictionState, sliding_model
 from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
 from pipeline.physics.stability.full_roots import sliding_as
 from pipeline.physics.stability.linearisation import (
@@ -33,6 +33,7 @@ from pipeline.physics.stability.linearisation import (
     present,
     with_slopes,
 )
+from pipeline.physics.system.forms import spread
 from pipeline.physics.time_stepping.elements import Turning, bears
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.normal_laws import tangent

@@ -6,17 +6,18 @@ import numpy as np
 import scipy
 
 from pipeline.case_models.matrices.full_matrices import lacking_terms
-from pipeline.case_models.matrices.sliding_terms import NamedMatrix, sliding_state, terms_about, terms_of
+from pipeline.case_models.matrices.sliding_terms import sliding_state, terms_about, terms_of
 from pipeline.contract import ConfigError
 from pipeline.exports.run_products import described, operating_point, product_of, sliding_products
 from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.system.terms import Term
 from pipeline.products import Matrices, MatrixModes, Structure
 from pipeline.systems.fem_bodies import full_model
 
 
 @dataclass(frozen=True)
 class MatrixSystem:
-    """NamedMatrix ``terms`` that hold at ``speed`` rad/s; ``about``: what they are; ``highest`` Hz that is of interest.
+    """Term ``terms`` that hold at ``speed`` rad/s; ``about``: what they are; ``highest`` Hz that is of interest.
 
     ``freedoms``: (columns, rows (n,)) of a table with one row for each degree of freedom; ``rows`` {name: (r, n)} of
     the inputs and sensors with their names; ``speeds`` at which modes are asked for, ``friction`` and that of a
@@ -77,8 +78,8 @@ def given_system(folder):
     """MatrixSystem of a run ``folder`` whose system was given as matrices, term by term, as it was given."""
     given = product_of(Matrices, folder)
     modes, size = product_of(MatrixModes, folder, optional=True), int(given.size)
-    terms = tuple(NamedMatrix(name, str(term.kind), scipy.sparse.csr_matrix((term.value, (term.row, term.column)),
-                                                                            (size, size)), str(term.times))
+    terms = tuple(Term.whole(name, str(term.kind), scipy.sparse.csr_matrix((term.value, (term.row, term.column)),
+                                                                           (size, size)), str(term.times))
                   for name, term in given.terms.items())
     labels = zip(given.node, given.direction, strict=True) if len(given.node) else [("", "")] * size
     freedoms = [(k, *label) for k, label in enumerate(labels, 1)]

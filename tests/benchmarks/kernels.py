@@ -29,6 +29,7 @@ from pipeline.physics.rupture.history import run
 from pipeline.physics.rupture.plate_grid import largest_step, plate
 from pipeline.physics.rupture.plate_step import plain_step, rims, step_plate
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
+from pipeline.physics.stability.draws.draw_system import BodyLosses
 from pipeline.physics.stability.draws.sampled_roots import Sampled
 from pipeline.physics.stability.draws.sampled_sliding import GivenSliding
 from pipeline.physics.stability.draws.scatter import Factors, Family
@@ -153,7 +154,8 @@ def scattered_family(size, contacts):
 def scattered_roots(size=390, contacts=1296):
     """unstable roots of one draw at one point, 390 coordinates"""
     family = scattered_family(size, contacts)
-    case = Sampled(GivenSliding(family), np.eye(size), family.model, family.loss[None], None, 20e3)
+    losses = BodyLosses(family.loss, None, None, family.loss[None])
+    case = Sampled(GivenSliding(family), np.eye(size), family.model, losses, 20e3)
     draw = Factors(joint_stiffness=1.2, contact_stiffness=0.9, friction=0.02)
     return lambda: case.roots(draw, 10.0), 1, "draws"
 

@@ -8,10 +8,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from pipeline.case_models.scatter import stability_settings
-from pipeline.case_models.sensitivity.few_coordinates import without_surface
-from pipeline.case_models.sensitivity.matrices import Case, matrices, polished_root
+from pipeline.case_models.sensitivity.matrices import Case, polished_root, system_of, without_surface
 from pipeline.case_models.sensitivity.parameters import parameters
-from pipeline.contract import ConfigError, store
+from pipeline.contract import store
 from pipeline.products import FrictionMap, ReducedModel, Structure
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
@@ -114,11 +113,16 @@ def test_nothing_unstable_gives_nothing(brake):
     assert not len(none.mode) and not len(none.parameter) and not len(none.remedy_value) and len(none.left_out)
 
 
-def test_a_case_with_effects_has_none_and_none_may_be_asked_for(brake):
+def test_effects_act_on_derivatives_and_on_what_makes_a_mode_stable(brake):
+    """Friction that falls with speed: its modes grow by other amounts, and so do those of the changed case."""
+    model, law, modes, structure, drawn = brake
     added = effects({"falling_friction": {"contact": {"rise": 0.2, "decay_speed": "100 mm/s"}}})
-    with pytest.raises(ConfigError, match="sensitivities.modes: expected 0 in a case with effects"):
-        sensitivities(*brake, added, varied={}, settings=Settings(modes=2))
-    assert not len(sensitivities(*brake, added, varied={}, settings=Settings()).mode)
+    settings = Settings(modes=1, remedies=1)
+    found = sensitivities(model, law, modes, structure, drawn, added, varied={}, settings=settings)
+    bare = sensitivities(model, law, modes, structure, drawn, varied={}, settings=Settings(modes=1, remedies=0))
+    assert found.root[0] != bare.root[0] and abs(found.root[0] - bare.root[0]) < 0.05 * abs(bare.root[0])
+    friction = list(found.parameter).index("friction")
+    assert found.derivative[0, friction] != bare.derivative[0, friction]
 
 
 def test_settings_that_move_the_mesh_are_ranked_with_the_others(brake, made):
@@ -156,8 +160,8 @@ def test_thirty_values_of_the_quick_brake_within_five_percent_of_differences(tmp
         case = Case(without_surface(model), state, 10.0)
         for p, value in enumerate(parameters(case, structure, float(found.friction[k]), points)):
             slope = found.derivative[k, p] * value.reference
-            step = 0.005 if abs(slope) > 50 else 0.05 if value.value else 0.5
-            ends = [(matrices(value.changed(case, side * step), law, points), found.root[k] + side * step * slope)
+            step = 0.005 if abs(slope) > 50 else 0.02 if value.value else 0.5
+            ends = [(system_of(value.changed(case, side * step), law, points), found.root[k] + side * step * slope)
                     for side in (-1, 1)]
             low, high = (polished_root(*end).root for end in ends)
             assert slope.real == pytest.approx((high - low).real / (2 * step), rel=0.05, abs=0.02), value.name

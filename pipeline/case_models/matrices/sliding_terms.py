@@ -13,23 +13,16 @@ from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import Posed, Steady, posed, sliding_friction
 from pipeline.contract import ConfigError, ProductError
-from pipeline.physics.sliding.model import SlidingModel, at_state, spread
+from pipeline.physics.sliding.model import SlidingModel, at_state
 from pipeline.physics.sliding.unreduced_equilibrium import Solutions
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.growth_balance import Losses
+from pipeline.physics.system.forms import Block
+from pipeline.physics.system.system import System
+from pipeline.physics.system.terms import Kind, Term, What
 
 #: contact forces that were computed again may differ from those of the product by this share of the largest
 _SAME = 1e-6
-
-
-@dataclass(frozen=True)
-class NamedMatrix:
-    """A real ``matrix`` (n, n), dense or sparse, of a ``kind`` (mass, damping, stiffness, loss), and its ``times``."""
-
-    name: str
-    kind: str
-    matrix: np.ndarray
-    times: str = "1"
 
 
 @dataclass(frozen=True)
@@ -109,32 +102,28 @@ def sliding_state(modes, model, friction_map, effects, operating):
 
 
 def terms_of(state):
-    """NamedMatrix terms of a SlidingState in the reduced model."""
+    """Terms of a SlidingState in the reduced model."""
     return terms_about(state.about, state.friction, state.settings, state.hysteretic)
 
 
 def terms_about(about, friction, settings, hysteretic=None):
-    """NamedMatrix terms of a SlidingModel, dense or sparse, with a FrictionState; those without entries are left out.
+    """Terms of a SlidingModel, dense or sparse, with a FrictionState; those without entries are left out.
 
     ``hysteretic``: (damping, imaginary stiffness) to add, or None. Imaginary parts of stiffnesses are terms of loss.
     """
-    contacts, slope = about.contacts, friction.speed_slope
-    mass, damping, stiffness = about.supported(gyroscopic=False, centrifugal=False)
+    parts = [*about.system(friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal).terms]
     if hysteretic is not None:
-        damping, stiffness = damping + hysteretic[0], stiffness + hysteretic[1]
-    normal, tangent, lateral = contacts.normal, contacts.tangent, contacts.lateral
-    coupling = about.coupling(friction)
-    turning = about.turning_drag(friction.coefficient) if settings.friction_damping else np.zeros(len(coupling))
-    terms = (
-        NamedMatrix("mass", "mass", mass), NamedMatrix("structural_damping", "damping", damping.real),
-        NamedMatrix("contact_damping", "damping", spread(normal, contacts.damping, normal)),
-        NamedMatrix("gyroscopic", "damping", settings.gyroscopic * about.speed * about.gyroscopic, "speed"),
-        NamedMatrix("friction_damping", "damping", spread(tangent, coupling * contacts.damping, normal), "friction"),
-        NamedMatrix("friction_over_slip", "damping", spread(tangent, contacts.preload * slope, tangent), "friction"),
-        NamedMatrix("friction_turning", "damping", spread(lateral, turning, lateral), "friction/speed"),
-        NamedMatrix("structural_stiffness", "stiffness", stiffness.real),
-        NamedMatrix("contact_stiffness", "stiffness", spread(normal, contacts.stiffness, normal)),
-        NamedMatrix("centrifugal", "stiffness", settings.centrifugal * about.speed**2 * about.centrifugal, "speed^2"),
-        NamedMatrix("circulatory", "stiffness", spread(tangent, coupling * contacts.stiffness, normal), "friction"),
-        NamedMatrix("hysteretic_loss", "loss", stiffness.imag))
-    return tuple(term for term in terms if abs(term.matrix).max() > 0)
+        parts += [Term(What.STRUCTURAL_DAMPING, Kind.DAMPING, Block(hysteretic[0])),
+                  Term(What.STRUCTURAL_STIFFNESS, Kind.STIFFNESS, Block(hysteretic[1]))]
+    whole = System(tuple(parts), about.coordinate_body)
+    found = []
+    for what in What:
+        members = whole.where(lambda term, what=what: term.name == what)
+        if not members.terms:
+            continue
+        kind = members.terms[0].kind
+        matrix = members.matrix(kind)
+        found.append(Term.whole(what, kind, matrix.real, members.terms[0].times))
+        if kind is Kind.STIFFNESS and np.iscomplexobj(matrix):
+            found.append(Term.whole(What.HYSTERETIC_LOSS, Kind.LOSS, matrix.imag))
+    return tuple(term for term in found if abs(term.matrix).max() > 0)

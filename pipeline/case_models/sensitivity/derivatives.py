@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.case_models.sensitivity.few_coordinates import few_coordinates
 from pipeline.case_models.sensitivity.parameters import parameters
+from pipeline.case_models.sensitivity.root_changes import followed_roots
 
 #: values are changed by this many references to either side
 STEP = 1e-3
@@ -31,20 +31,19 @@ class Derivatives:
 
 
 def derivatives(case, roots, structure, friction, friction_map, points):
-    """Derivatives of ``roots`` (r,) 1/s, each near one of a Case; the rest as of ``parameters`` and ``matrices``."""
-    few = few_coordinates(case, roots, friction_map, points)
-    values = tuple(parameters(few.case, structure, friction, points))
-    changes = np.array([_changes(few, value, friction_map, points) for value in values])
-    shapes = few.basis @ np.array([mode.right for mode in few.modes]).T
+    """Derivatives of ``roots`` (r,) 1/s, each near one of a Case; the rest as of ``parameters``."""
+    followed = followed_roots(case, roots, friction_map, points)
+    values = tuple(parameters(case, structure, friction, points))
+    changes = np.array([_changes(followed, value, friction_map, points) for value in values])
+    shapes = np.array([mode.right for mode in followed.modes]).T
     return Derivatives(tuple(replace(value, changed=None) for value in values),
-                       np.array([mode.root for mode in few.modes]), shapes, changes.transpose(1, 2, 0))
+                       np.array([mode.root for mode in followed.modes]), shapes, changes.transpose(1, 2, 0))
 
 
-def _changes(few, value, friction_map, points):
-    """(reach, r) change of each root per reference of a Parameter, by central differences of the matrices."""
-    ends = [few.on(value.changed(few.case, side * STEP)) if value.of_bodies else value.changed(few.small, side * STEP)
-            for side in (-1, 1)]
-    return few.changes(ends, friction_map, points) / (2 * STEP)
+def _changes(followed, value, friction_map, points):
+    """(reach, r) change of each root per reference of a Parameter, by central differences of the system."""
+    ends = [value.changed(followed.case, side * STEP) for side in (-1, 1)]
+    return followed.changes(ends, friction_map, points) / (2 * STEP)
 
 
 def scatter_of(value, probability):

@@ -6,6 +6,7 @@ slopes vary as the steps of the staircase do on average, over a ``reach`` of so 
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from pipeline.physics.sliding.model import FrictionState
 
 #: distance over which the slope of a friction law that is no table changes, as a logarithm
 _SMOOTH = 1e-3
+#: the same over which the coefficient itself does
+_NEAR = 1e-5
 
 
 @dataclass(frozen=True)
@@ -29,10 +32,13 @@ class LocalLaw:
     curvature: np.ndarray
 
     @classmethod
-    def about(cls, family, sliding, reach=1):
-        """Of a Family about its SlidingState."""
-        contact, contacts = sliding.contact, family.model.contacts
-        curvature = contacts.area * curvature_of(contact.closure, family.law_closure, family.law_pressure, reach)
+    def about(cls, family, contact, reach=1):
+        """Of a Family about the Preload of its contacts in steady sliding."""
+        contacts = family.model.contacts
+        if family.law_added:
+            curvature = family.added.curvature(contacts.area, contact.closure, partial(curvature_of, reach=reach))
+        else:
+            curvature = contacts.area * curvature_of(contact.closure, family.law_closure, family.law_pressure, reach)
         moves = (contact.stiffness > 0) & ~contacts.fixed
         return cls(contact.closure, contact.force, contact.stiffness, np.where(moves, curvature, 0.0))
 
@@ -56,20 +62,20 @@ def curvature_of(closure, closures, pressures, reach=1):
 class LocalFriction:
     """Coefficient of friction about a ``pressure`` Pa and a sliding ``speed`` m/s, each (c,), to the second order.
 
-    ``state``: the FrictionState there; ``by_pressure``, ``by_both``, ``by_speed`` (c,) its second derivatives.
+    ``state``: the FrictionState there; ``steady`` (2, c): what steady friction changes by over pressure and speed, more
+    than the slopes where it remembers; ``bend`` (2, 2, c): what both slopes change by over pressure and over speed.
     """
 
     pressure: np.ndarray
     speed: np.ndarray
     state: FrictionState
-    by_pressure: np.ndarray
-    by_both: np.ndarray
-    by_speed: np.ndarray
+    steady: np.ndarray
+    bend: np.ndarray
 
     @classmethod
-    def about(cls, family, sliding, friction_map, reach=1):
-        """Of a Family about its SlidingState, friction that of a product FrictionMap, or None."""
-        pressure, speed = sliding.contact.force / family.model.contacts.area, abs(family.model.sliding_speed)
+    def about(cls, family, force, friction_map, reach=1):
+        """Of a Family under contact forces (c,) N, friction that of a product FrictionMap, or None."""
+        pressure, speed = force / family.model.contacts.area, abs(family.model.sliding_speed)
         far = [np.exp(_SMOOTH if friction_map is None else reach * np.diff(np.log(axis)).mean()) for axis in
                ((1.0,) if friction_map is None else (friction_map.pressure, friction_map.speed))]
         over_pressure, over_speed = far[0], far[-1]
@@ -78,22 +84,22 @@ class LocalFriction:
             state = family.friction(pressures, speeds)
             return np.broadcast_to(state.pressure_slope, len(speed)), np.broadcast_to(state.speed_slope, len(speed))
 
-        def differences(axis, factor):
+        def differences(axis, factor, values=slopes):
             ends = [(pressure * factor**side, speed) if axis == 0 else (pressure, speed * factor**side)
                     for side in (-1, 1)]
             along = ends[1][axis] - ends[0][axis]
-            low, high = slopes(*ends[0]), slopes(*ends[1])
+            low, high = values(*ends[0]), values(*ends[1])
             return [np.divide(b - a, along, out=np.zeros(len(speed)), where=along > 0)
                     for a, b in zip(low, high, strict=True)]
 
-        by_pressure, mixed = differences(0, over_pressure)
-        other, by_speed = differences(1, over_speed)
-        return cls(pressure, speed, family.friction(pressure, speed), by_pressure, (mixed + other) / 2, by_speed)
+        bend = np.array([differences(0, over_pressure), differences(1, over_speed)])
+        steady = [differences(axis, np.exp(_NEAR), lambda *at: (family.friction(*at).coefficient,))[0]
+                  for axis in range(2)]
+        return cls(pressure, speed, family.friction(pressure, speed), np.array(steady), bend)
 
     def __call__(self, pressure, speed):
         """FrictionState (c,) at other pressures and speeds (c,)."""
-        along, across, state = pressure - self.pressure, speed - self.speed, self.state
-        level = state.coefficient + state.pressure_slope * along + state.speed_slope * across
-        level = level + self.by_pressure * along**2 / 2 + self.by_both * along * across + self.by_speed * across**2 / 2
-        return FrictionState(level, state.pressure_slope + self.by_pressure * along + self.by_both * across,
-                             state.speed_slope + self.by_both * along + self.by_speed * across)
+        moved, state = np.array([pressure - self.pressure, speed - self.speed]), self.state
+        turned = np.einsum("ac,abc->bc", moved, self.bend)
+        level = state.coefficient + (moved * (self.steady + turned / 2)).sum(axis=0)
+        return FrictionState(level, state.pressure_slope + turned[0], state.speed_slope + turned[1])

@@ -30,7 +30,7 @@ class Parameter:
     """A value, in SI ``unit``; derivatives are per change by ``reference``, the value itself unless that is 0.
 
     ``source``: what scatters with it, as the product Probability calls it, '' for nothing; ``changed(case, step)``: the
-    Case with the value larger by ``step`` references. ``of_bodies``: it changes matrices of bodies.
+    Case with the value larger by ``step`` references.
     """
 
     name: str
@@ -39,7 +39,6 @@ class Parameter:
     reference: float
     source: str
     changed: Callable
-    of_bodies: bool = False
 
 
 def parameters(case, structure, friction, points):
@@ -54,12 +53,12 @@ def parameters(case, structure, friction, points):
         Parameter("contact_stiffness", 1.0, "1", 1.0, "contact_stiffness", partial(_scaled, "contact_stiffness")),
         Parameter("complex_modes.damping_speed", points.damping_speed, "m/s", points.damping_speed, "damping_speed",
                   partial(_scaled, "damping_speed")),
-        *((Parameter("structure.pressures", pressure, "Pa", pressure, "", _loaded, bool(model.lining_exponent)),)
+        *((Parameter("structure.pressures", pressure, "Pa", pressure, "", _loaded),)
           if len(model.law_closure) else ()),
         Parameter("complex_modes.speeds", case.speed, "rad/s", case.speed, "", _faster)]
     found += _springs(model) + _joint_losses(model)
     bodies = [] if structure is None else body_parameters(model, structure)
-    return found + [Parameter(*each, True) for each in bodies]
+    return found + [Parameter(*each) for each in bodies]
 
 
 def _added(field, reference, case, step):

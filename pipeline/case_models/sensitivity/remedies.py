@@ -4,7 +4,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from pipeline.case_models.sensitivity.matrices import matrices
+from pipeline.case_models.sensitivity.matrices import system_of
 from pipeline.contract import ConvergenceError
 from pipeline.physics.modal.quadratic_eigenproblem import DenseFactors, polished
 
@@ -52,8 +52,8 @@ def stabilised(case, root, shape, value, slope, friction_map, points):
     step, expected = first, root + first * slope
     for _ in range(_TRIALS):
         try:
-            now, shape = polished(*matrices(value.changed(case, step), friction_map, points), expected, shape,
-                                  factors=DenseFactors(np.complex64))
+            system = system_of(value.changed(case, step), friction_map, points)
+            now, shape = polished(*system.matrices(), expected, shape, system.beside, DenseFactors(np.complex64))
         except ConvergenceError:
             break
         if abs(now.imag / expected.imag - 1) > _SAME:

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from pipeline.physics.modal.quadratic_eigenproblem import operator
+
 #: inverse iterations for the left vector, and how far the matrix is evaluated beside the root, where it is regular
 _INVERSE, _BESIDE = 3, 1 + 1e-9
 
@@ -40,14 +42,13 @@ def scaled(matrices, root, right, left):
     return RootWithVectors(root, right, left / (left.conj() @ slope).conj())
 
 
-def with_vectors(matrices, root, right):
-    """RootWithVectors of the ``matrices`` (M, C, K) for a root and its right vector (n,)."""
-    mass, damping, stiffness = matrices
-    beside = root * _BESIDE
-    factor = scipy.linalg.lu_factor(beside**2 * mass + beside * damping + stiffness, check_finite=False)
-    slope = 2 * root * (mass @ right) + damping @ right
+def with_vectors(matrices, root, right, beside=None):
+    """RootWithVectors of the ``matrices`` (M, C, K), with a Settling ``beside`` them or None, for a root and its right
+    vector (n,); y^H T'(s) x is scaled to 1."""
+    factor = scipy.linalg.lu_factor(operator(*matrices, root * _BESIDE, beside)[0], check_finite=False)
+    slope = operator(*matrices, root, beside, right)[1]
     left = slope.conj()
     for _ in range(_INVERSE):
         left = scipy.linalg.lu_solve(factor, left, trans=2, check_finite=False)
         left = left / np.linalg.norm(left)
-    return scaled(matrices, root, right, left)
+    return RootWithVectors(root, right, left / (left.conj() @ slope).conj())

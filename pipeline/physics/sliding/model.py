@@ -18,16 +18,14 @@ is the force k u along its row.
 """
 
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 
 import numpy as np
-import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.sliding.sliding_terms import friction_terms, pressing_terms, supporting_terms
 from pipeline.physics.sliding.structural_damping import equivalent_damping
-
-#: coordinates of a body, on average, from which on matrices are worked on body by body
-_SHORT = 20
+from pipeline.physics.system.forms import spread
+from pipeline.physics.system.system import System, runs
 
 
 @dataclass(frozen=True)
@@ -130,89 +128,44 @@ class SlidingModel:
         """Sliding velocity (c,) of the contacts, m/s, signed."""
         return self.contacts.lever * self.speed
 
+    def supporting(self, gyroscopic=True, centrifugal=True):
+        """System of the bodies with their joints, contacts left out."""
+        return self._sum(supporting_terms(self, gyroscopic, centrifugal))
+
     def supported(self, gyroscopic=True, centrifugal=True):
-        """(M, C, K) of the bodies with their joints, contacts left out."""
-        damping, stiffness = self._supporting(gyroscopic, centrifugal)
-        return self.mass, _total(damping), _total(stiffness)
+        """(M, C, K) of ``supporting``."""
+        return self.supporting(gyroscopic, centrifugal).matrices()
 
     def frictionless(self, gyroscopic=True, centrifugal=True):
         """(M, C, K) with the normal stiffness and damping of the closed contacts, and no friction."""
-        damping, stiffness = self._supporting(gyroscopic, centrifugal)
-        contacts = self.contacts
-        return (self.mass, _total([*damping, self._spread(contacts.normal, contacts.damping, contacts.normal)]),
-                _total([*stiffness, self._spread(contacts.normal, contacts.stiffness, contacts.normal)]))
+        return self._sum(supporting_terms(self, gyroscopic, centrifugal) + pressing_terms(self)).matrices()
 
-    def friction_matrices(self, friction, friction_damping=True):
-        """(C_f, K_f), both (n, n), of the linearised friction forces (2) and, if wanted, (3).
+    def frictional(self, friction, friction_damping=True):
+        """System of the linearised friction forces (2) and, if wanted, (3) alone.
 
         ``friction`` is a FrictionState or a plain coefficient. Raises ConfigError for friction-induced damping where a
         loaded contact does not slide.
         """
-        contacts, (coupling, *drags) = self.contacts, self._friction(friction, friction_damping)
-        damping = [self._spread(contacts.tangent, coupling * contacts.damping, contacts.normal),
-                   *(self._spread(rows, drag, rows) for rows, drag in drags)]
-        return _total(damping), self._spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal)
-
-    def friction_products(self, friction, motion, friction_damping=True, adjoint=False):
-        """(C_f, K_f), or their transposes for ``adjoint``, times ``motion`` (n, m) of a dense model; arguments as of
-        ``friction_matrices``."""
-        contacts, (coupling, *drags) = self.contacts, self._friction(friction, friction_damping)
-        onto, of = (contacts.normal, contacts.tangent) if adjoint else (contacts.tangent, contacts.normal)
-        pulled = coupling[:, None] * (of @ motion)
-        damping = onto.T @ (contacts.damping[:, None] * pulled)
-        for rows, drag in drags:
-            if np.any(drag):
-                damping = damping + rows.T @ (np.reshape(drag, (-1, 1)) * (rows @ motion))
-        return damping, onto.T @ (contacts.stiffness[:, None] * pulled)
-
-    def linearised(self, friction, friction_damping=True, gyroscopic=True, centrifugal=True):
-        """(M, C, K) about steady sliding with friction; terms as in the methods above, and all at once.
-
-        K is unsymmetric through friction, C through friction and the gyroscopic terms.
-        """
-        damping, stiffness = self._supporting(gyroscopic, centrifugal)
-        contacts, (coupling, *drags) = self.contacts, self._friction(friction, friction_damping)
-        pushed = contacts.normal + _weighted(coupling, contacts.tangent)
-        damping += [self._spread(pushed, contacts.damping, contacts.normal),
-                    *(self._spread(rows, drag, rows) for rows, drag in drags)]
-        stiffness.append(self._spread(pushed, contacts.stiffness, contacts.normal))
-        return self.mass, _total(damping), _total(stiffness)
-
-    def _supporting(self, gyroscopic, centrifugal):
-        """([damping], [stiffness]) of the bodies and their joints, in parts that add up."""
-        joints = self.joints
-        damping = [self.damping, spread(joints.rows, joints.damping, joints.rows)]
-        stiffness = [self.stiffness, spread(joints.rows, joints.stiffness, joints.rows)]
-        if gyroscopic:
-            damping.append(self.speed * self.gyroscopic)
-        if centrifugal:
-            stiffness.append(self.speed**2 * self.centrifugal)
-        return damping, stiffness
-
-    def _friction(self, friction, friction_damping):
-        """(coupling (c,) of (2), then each (rows (c, n), drag (c,) N s/m along them)) of a FrictionState or number."""
         state = friction if isinstance(friction, FrictionState) else FrictionState(friction)
-        contacts = self.contacts
-        found = [self.coupling(state), (contacts.tangent, contacts.preload * state.speed_slope)]
         if friction_damping:
             self._refuse_rest(state.coefficient)
-            found.append((contacts.lateral, self.turning_drag(state.coefficient)))
-        return found
+        return self._sum(friction_terms(self, state, friction_damping))
 
-    def _spread(self, left, weight, right):
-        """``spread`` body by body, as most rows move two of them alone."""
-        if scipy.sparse.issparse(left):
-            return spread(left, weight, right)
-        weight, parts = np.broadcast_to(weight, len(left)), runs(self.coordinate_body)
-        acting = weight != 0
-        onto, of = ([acting & rows[:, part].any(axis=1) for part in parts] for rows in (left, right))
-        out = np.zeros((self.size, self.size), np.result_type(left, weight, right))
-        for a, left_acts in zip(parts, onto, strict=True):
-            for b, right_acts in zip(parts, of, strict=True):
-                both = np.flatnonzero(left_acts & right_acts)
-                if len(both):
-                    out[a, b] = spread(left[both, a], weight[both], right[both, b])
-        return out
+    def friction_matrices(self, friction, friction_damping=True):
+        """(C_f, K_f), both (n, n), of ``frictional``."""
+        return self.frictional(friction, friction_damping).matrices()[1:]
+
+    def system(self, friction, friction_damping=True, gyroscopic=True, centrifugal=True):
+        """System about steady sliding with friction; terms as in the methods above, and all at once."""
+        about = self._sum(supporting_terms(self, gyroscopic, centrifugal) + pressing_terms(self))
+        return about.and_(self.frictional(friction, friction_damping).terms)
+
+    def linearised(self, friction, friction_damping=True, gyroscopic=True, centrifugal=True):
+        """(M, C, K) of ``system``: K is unsymmetric through friction, C through friction and the gyroscopic terms."""
+        return self.system(friction, friction_damping, gyroscopic, centrifugal).matrices()
+
+    def _sum(self, terms):
+        return System(terms, self.coordinate_body)
 
     def held(self, *bodies):
         """The model with the named bodies rigid and held: their coordinates are dropped."""
@@ -332,21 +285,6 @@ def loss_stiffness(reduced):
     return reduced.loss + spread(rows, reduced.joint_loss_factor * reduced.joint_stiffness, rows)
 
 
-def spread(left, weight, right):
-    """sum_i weight_i left_i^T right_i, (n, n), of rows (r, n), dense or sparse."""
-    if scipy.sparse.issparse(left):
-        return (left.T @ (scipy.sparse.diags(np.broadcast_to(weight, left.shape[0])) @ right)).tocsr()
-    return (left.T * np.broadcast_to(weight, len(left))) @ right
-
-
-def runs(body):
-    """Slices of coordinates that follow each other on one ``body`` (n,); one of all where they would be short."""
-    ends = [0, *(np.flatnonzero(np.diff(body)) + 1), len(body)]
-    if len(body) < _SHORT * (len(ends) - 1):
-        return [slice(0, len(body))]
-    return [slice(int(first), int(last)) for first, last in pairwise(ends) if last > first]
-
-
 def congruent(matrix, basis, parts):
     """``basis``^T ``matrix`` ``basis``, (m, m), without those blocks of ``matrix`` (n, n), by slices, that are 0."""
     if np.iscomplexobj(matrix):
@@ -358,18 +296,3 @@ def congruent(matrix, basis, parts):
             out += basis[a].T @ sum(matrix[a, b] @ basis[b] for b in coupled)
     return out
 
-
-def _weighted(weight, rows):
-    """Rows (c, n), dense or sparse, times ``weight`` (c,)."""
-    return scipy.sparse.diags(weight) @ rows if scipy.sparse.issparse(rows) else weight[:, None] * rows
-
-
-def _total(parts):
-    """Sum of matrices (n, n); of sparse ones the emptiest first, so that large ones are copied once."""
-    if scipy.sparse.issparse(parts[0]):
-        parts = sorted(parts, key=lambda part: part.nnz)
-        return sum(parts[1:], parts[0])
-    whole = np.array(parts[0], np.result_type(*parts))
-    for part in parts[1:]:
-        whole += part
-    return whole

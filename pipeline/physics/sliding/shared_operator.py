@@ -14,7 +14,7 @@ import scipy
 from pipeline.physics.numerics.half_matrices import Half
 from pipeline.physics.numerics.orthonormal import orthonormal_beside, within
 from pipeline.physics.numerics.sparse_solver import Upper
-from pipeline.physics.sliding.model import spread
+from pipeline.physics.system.forms import spread
 
 #: powers of s and W that the gyroscopic matrix stands with
 _GYROSCOPIC = (1, 1)

@@ -17,6 +17,7 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.natural_modes import all_modes
+from pipeline.physics.system.terms import Kind
 
 
 @dataclass(frozen=True)
@@ -48,17 +49,22 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
         raise ConfigError("real modes", f"a mode below {below:g} Hz", f"the lowest at {frequency[0]:g} Hz")
     real, high = modes[:, low], modes[:, ~low]
     pace, rows = 2 * np.pi * frequency[low], model.contacts.normal
-    drag, follower = model.friction_products(1.0, real, friction_damping)
+    drag, follower = _drawn(model.frictional(1.0, friction_damping), real)
     changes = np.atleast_2d(np.broadcast_to(contact_stiffness, (*np.shape(contact_stiffness)[:-1], len(rows))))
     force = [follower, *(rows.T @ (changed[:, None] * (rows @ real)) for changed in changes if changed.any()),
              (damping @ real + drag) * pace]
     force += [] if others is None else [other @ real for other in np.reshape(others, (-1, *mass.shape))]
     if adjoint is not None:
-        drag, follower = model.friction_products(adjoint, real, friction_damping, adjoint=True)
+        drag, follower = _drawn(model.frictional(adjoint, friction_damping).adjoint(), real)
         force += [follower, drag * pace, model.speed * model.gyroscopic @ real * pace]
     response = (high.T @ np.hstack(force)) / (square[~low, None] - np.tile(square[low], len(force)))
     corrections = high @ _directions(response, smallest)
     return FrictionBasis(np.hstack((real, corrections)), frequency[low], corrections.shape[1])
+
+
+def _drawn(friction, motion):
+    """(damping, stiffness) of the System of ``friction`` times ``motion``, each (n, m)."""
+    return tuple(friction.of_kind(kind, motion) for kind in (Kind.DAMPING, Kind.STIFFNESS))
 
 
 def _directions(response, smallest):

@@ -13,11 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.physics.sliding.model import FrictionState, spread
+from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.sliding.sliding_terms import friction_terms, pressing_terms
 from pipeline.physics.sliding.structural_damping import equivalent_motion
+from pipeline.physics.system.forms import Block, Rows, spread
+from pipeline.physics.system.terms import Kind, Owner, Term, What
 
 #: terms beside those of the friction at the contacts of each body, in order
 CONTACT, TURNING, SLIP = "contact damping", "friction turning with the slip", "friction over slip speed"
+LOCAL = {What.CONTACT_DAMPING: CONTACT, What.FRICTION_TURNING: TURNING, What.FRICTION_OVER_SLIP: SLIP}
 #: how the terms of the friction at a body, of what a body and of what a group of joints dissipates begin
 FRICTION, BODY, JOINTS = "friction at ", "damping of ", "damping at "
 #: names of a remainder: friction at contacts that do not yield, or the effects of a case
@@ -104,19 +108,30 @@ class Losses:
         ``viscous``: motion as of ``viscous_motion`` where loss factors act by their viscous equivalent, else None.
         """
         moved, rate = (shape, 1.0) if viscous is None else (viscous, root.imag)
-        drag = (shape.conj() * (self.damping @ shape)).real * root.imag
-        lost = drag + (moved.conj() * (self.loss @ moved)).real * rate
-        bodies = np.bincount(model.coordinate_body, lost, len(model.body_name))
+        bodies, joints = np.zeros(len(model.body_name)), np.zeros(len(self.group))
+        for term in self.terms():
+            motion, weight = (shape, root.imag) if term.kind is Kind.DAMPING else (moved, rate)
+            lost = weight * term.form.shares(motion, motion).real
+            if term.owner is Owner.BODY:
+                bodies += np.bincount(model.coordinate_body, lost, len(bodies))
+            else:
+                joints += lost
         acts = np.bincount(model.coordinate_body, sum(np.ravel(abs(part).sum(axis=1)) for part in
                                                       (self.damping, self.loss)), len(model.body_name)) > 0
         terms = {f"{BODY}{name}": bodies[b] for b, name in enumerate(model.body_name) if acts[b]}
-        joints = (self.joint_damping * abs(self.rows @ shape) ** 2 * root.imag
-                  + self.joint_loss * abs(self.rows @ moved) ** 2 * rate)
         for name in dict.fromkeys(self.group):
-            members = np.array([g == name for g in self.group])
-            if self.joint_damping[members].any() or self.joint_loss[members].any():
+            members = np.array([group == name for group in self.group])
+            if (self.joint_damping[members] + self.joint_loss[members]).any():
                 terms[f"{JOINTS}{name}"] = joints[members].sum()
         return terms
+
+    def terms(self):
+        """Terms of a System: damping and loss of bodies and joints."""
+        rows = self.rows
+        return (Term.sliding(What.STRUCTURAL_DAMPING, Kind.DAMPING, Block(self.damping), Owner.BODY),
+                Term.sliding(What.STRUCTURAL_DAMPING, Kind.DAMPING, Rows(rows, self.joint_damping, rows), Owner.JOINT),
+                Term.sliding(What.HYSTERETIC_LOSS, Kind.LOSS, Block(self.loss), Owner.BODY),
+                Term.sliding(What.HYSTERETIC_LOSS, Kind.LOSS, Rows(rows, self.joint_loss, rows), Owner.JOINT))
 
 
 def growth_terms(model, friction, root, shape, losses, friction_damping=True, gyroscopic=True, viscous=None,
@@ -128,25 +143,23 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     part of a contact is that of its friction of all kinds and of its damping. Terms add up to the growth rate, by what
     is left of it if that has the name ``remainder``. Of a real root, where nothing oscillates, the others are 0.
     """
-    contacts, state = model.contacts, friction if isinstance(friction, FrictionState) else FrictionState(friction)
+    state = friction if isinstance(friction, FrictionState) else FrictionState(friction)
     inertia = 2 * root.imag * (shape.conj() @ model.mass @ shape).real
     if gyroscopic:
         inertia += model.speed * (shape.conj() @ model.gyroscopic @ shape).imag
     inertia = inertia or np.inf
-    normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
-    pressed = model.coupling(state) * (contacts.stiffness + root * contacts.damping) * normal
-    drawn = -(tangent.conj() * pressed).imag / inertia
-    rate = root.imag / inertia
-    local = {CONTACT: -rate * contacts.damping * abs(normal) ** 2,
-             TURNING: -rate * friction_damping * model.turning_drag(state.coefficient) * abs(lateral) ** 2,
-             SLIP: -rate * contacts.preload * state.speed_slope * abs(tangent) ** 2}
+    fed = dict.fromkeys((What.CIRCULATORY, What.FRICTION_DAMPING, *LOCAL), 0.0)
+    for term in (*pressing_terms(model), *friction_terms(model, state, friction_damping)):
+        if term.name in fed:
+            fed[term.name] = -(term.kind.factor(root) * term.form.shares(shape, shape)).imag / inertia
+    drawn = fed[What.CIRCULATORY] + fed[What.FRICTION_DAMPING]
     terms = {f"{FRICTION}{model.body_name[body]}": drawn[losses.contact_body == body].sum()
              for body in np.unique(losses.contact_body)}
-    terms |= {name: part.sum() for name, part in local.items()}
+    terms |= {name: np.sum(fed[what]) for what, name in LOCAL.items()}
     terms |= {name: -lost / inertia for name, lost in losses.parts(model, root, shape, viscous).items()}
     if remainder is not None:
         terms[remainder] = root.real - sum(terms.values())
-    return {name: float(value) for name, value in terms.items()}, drawn + sum(local.values())
+    return {name: float(value) for name, value in terms.items()}, sum(fed.values())
 
 
 def body_shares(model, shape):

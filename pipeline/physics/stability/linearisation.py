@@ -13,7 +13,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import parts
 from pipeline.physics.friction.state_kernels import MEMORY, PLATEAUS, SETTLING, factor_slope, rate_slopes
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
-from pipeline.physics.sliding.model import FrictionState, spread
+from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.system.forms import spread
 from pipeline.physics.time_stepping.coupled_solver import no_memory
 from pipeline.physics.time_stepping.element_forces import BOUC_WEN, FRICTION, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import Maxwell, alone

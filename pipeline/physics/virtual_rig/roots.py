@@ -16,7 +16,6 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.state_variables import shapeless
 from pipeline.physics.modal.quadratic_eigenproblem import by_frequency
-from pipeline.physics.sliding.model import spread
 from pipeline.physics.stability.linearisation import (
     Settling,
     element_slopes,
@@ -25,6 +24,7 @@ from pipeline.physics.stability.linearisation import (
     present,
     settling,
 )
+from pipeline.physics.system.forms import spread
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.normal_laws import tangent
 from pipeline.physics.virtual_rig.response import at_begin, run_friction

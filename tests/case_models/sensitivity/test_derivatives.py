@@ -7,8 +7,7 @@ import pytest
 
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.sensitivity.derivatives import derivatives, scatter_of
-from pipeline.case_models.sensitivity.few_coordinates import without_surface
-from pipeline.case_models.sensitivity.matrices import Case
+from pipeline.case_models.sensitivity.matrices import Case, without_surface
 from tests.case_models.sensitivity.curved_brake import curved_brake
 
 DECLARED = SimpleNamespace(source=["joint_stiffness:finger", "joint_loss", "friction", "body_loss:pad_outer"],

@@ -33,9 +33,10 @@ def test_its_slope_is_the_derivative_of_its_force_and_a_factor_acts_at_a_given_p
 
 def test_open_contacts_and_friction_joints_have_no_curvature():
     contacts = SimpleNamespace(area=np.full(3, 1e-4), fixed=np.array([False, False, True]))
-    family = SimpleNamespace(model=SimpleNamespace(contacts=contacts), law_closure=CLOSURE, law_pressure=PRESSURE)
+    family = SimpleNamespace(model=SimpleNamespace(contacts=contacts), law_added=False, law_closure=CLOSURE,
+                             law_pressure=PRESSURE)
     contact = Preload(np.array([100.0, 0.0, 10.0]), np.array([1e8, 0.0, 0.0]), np.array([8e-6, -1e-6, 0.0]))
-    law = LocalLaw.about(family, SimpleNamespace(contact=contact))
+    law = LocalLaw.about(family, contact)
     assert law.curvature[0] > 0 and not law.curvature[1:].any()
 
 
@@ -49,8 +50,8 @@ def test_a_quadratic_friction_is_its_own_local_law():
 
     area = np.array([1e-4, 2e-4])
     model = SimpleNamespace(contacts=SimpleNamespace(area=area), sliding_speed=np.array([-1.0, 1.2]))
-    sliding = SimpleNamespace(contact=SimpleNamespace(force=np.array([100.0, 300.0])))
-    local = LocalFriction.about(SimpleNamespace(model=model, friction=friction), sliding, None)
+    force = np.array([100.0, 300.0])
+    local = LocalFriction.about(SimpleNamespace(model=model, friction=friction), force, None)
     given, expected = (of(np.array([1.3e6, 1.1e6]), np.array([0.7, 1.5])) for of in (local, friction))
     np.testing.assert_allclose(given.coefficient, expected.coefficient, rtol=1e-6)
     np.testing.assert_allclose(given.pressure_slope, expected.pressure_slope, rtol=1e-6)
@@ -66,10 +67,10 @@ def test_the_staircase_of_a_friction_map_is_smoothed():
         return FrictionState(np.where(over, 3e-7, 1e-7) * pressure, np.where(over, 3e-7, 1e-7), 0 * pressure)
 
     model = SimpleNamespace(contacts=SimpleNamespace(area=np.ones(1)), sliding_speed=np.ones(1))
-    sliding = SimpleNamespace(contact=SimpleNamespace(force=np.array([1.01e6])))
+    force = np.array([1.01e6])
     family = SimpleNamespace(model=model, friction=friction)
     friction_map = SimpleNamespace(pressure=axis, speed=np.geomspace(0.1, 10, 5))
     ratio = axis[1] / axis[0]
-    local = LocalFriction.about(family, sliding, friction_map)
-    assert local.by_pressure[0] == pytest.approx(2e-7 / (1.01e6 * (ratio - 1 / ratio)))
-    assert LocalFriction.about(family, sliding, friction_map, 2).by_pressure[0] < 0.6 * local.by_pressure[0]
+    local = LocalFriction.about(family, force, friction_map)
+    assert local.bend[0, 0, 0] == pytest.approx(2e-7 / (1.01e6 * (ratio - 1 / ratio)))
+    assert LocalFriction.about(family, force, friction_map, 2).bend[0, 0, 0] < 0.6 * local.bend[0, 0, 0]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.case_models.scatter import stability_settings
-from pipeline.case_models.sensitivity.matrices import Case, matrices, mean_friction
+from pipeline.case_models.sensitivity.matrices import Case, mean_friction, system_of
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from stages.reduced_model import Settings as Reduction
@@ -18,7 +18,7 @@ def test_roots_of_complex_modes_are_those_of_the_matrices():
                                                      followed=0))
     points, root = stability_settings(modes), modes.unstable_reduced[0]
     case = Case(model, int(modes.unstable_operating[0]), 12.0)
-    mass, damping, stiffness = matrices(case, law, points)
+    mass, damping, stiffness = system_of(case, law, points).matrices()
     size = np.linalg.svd(root**2 * mass + root * damping + stiffness, compute_uv=False)
     assert size[-1] < 1e-6 * size[-2]
     assert abs(mean_friction(case, law, points) - 0.6) < 1e-6

@@ -7,8 +7,7 @@ import pytest
 
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.sensitivity.derivatives import derivatives
-from pipeline.case_models.sensitivity.few_coordinates import without_surface
-from pipeline.case_models.sensitivity.matrices import Case, matrices, polished_root
+from pipeline.case_models.sensitivity.matrices import Case, polished_root, system_of, without_surface
 from pipeline.case_models.sensitivity.parameters import parameters
 from pipeline.case_models.sensitivity.remedies import candidates, stabilised
 from tests.case_models.sensitivity.curved_brake import curved_brake
@@ -39,5 +38,5 @@ def test_the_mode_no_longer_grows_with_the_value_that_is_found():
     chosen = parameters(case, structure, 0.6, points)[k]
     step, root = stabilised(case, found.roots[0], found.shapes[:, 0], chosen, found.changes[0, 0, k], law, points)
     assert step > 0 and -0.1 * found.roots[0].real < root.real <= 0
-    again = polished_root(matrices(chosen.changed(case, step), law, points), root).root
+    again = polished_root(system_of(chosen.changed(case, step), law, points), root).root
     assert again == pytest.approx(root, rel=1e-8)

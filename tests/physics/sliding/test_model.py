@@ -7,17 +7,10 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
-from pipeline.physics.sliding import model as module
-from pipeline.physics.sliding.model import (
-    Contacts,
-    FrictionState,
-    Joints,
-    SlidingModel,
-    congruent,
-    runs,
-    sliding_model,
-    spread,
-)
+from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel, congruent, sliding_model
+from pipeline.physics.system import system as systems
+from pipeline.physics.system.forms import spread
+from pipeline.physics.system.system import runs
 from tests.stages.small_brake import small_brake, stiffening_brake
 
 
@@ -173,7 +166,7 @@ def test_linings_stiffen_with_the_pressure_of_a_state():
 
 @pytest.fixture
 def by_body(monkeypatch):
-    monkeypatch.setattr(module, "_SHORT", 1)
+    monkeypatch.setattr(systems, "_SHORT", 1)
 
 
 def scattered(share=0.7):
@@ -209,17 +202,6 @@ def test_matrices_by_body_are_the_sums_over_all_rows(by_body):
     parts = [a + b for a, b in zip(model.frictionless()[1:], model.friction_matrices(friction), strict=True)]
     for part, whole in zip(parts, (damping, stiffness), strict=True):
         np.testing.assert_allclose(part, whole, rtol=0, atol=1e-13 * abs(whole).max())
-
-
-@pytest.mark.parametrize("friction_damping", [False, True])
-def test_products_with_friction_matrices(friction_damping):
-    model, friction = scattered(), FrictionState(0.4, 1e-3, -0.02)
-    motion = np.random.default_rng(2).normal(size=(12, 3))
-    for adjoint in (False, True):
-        found = model.friction_products(friction, motion, friction_damping, adjoint)
-        for product, matrix in zip(found, model.friction_matrices(friction, friction_damping), strict=True):
-            expected = (matrix.T if adjoint else matrix) @ motion
-            np.testing.assert_allclose(product, expected, rtol=0, atol=1e-13 * abs(matrix).max())
 
 
 @pytest.mark.parametrize("complex_", [False, True])

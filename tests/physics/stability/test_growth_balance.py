@@ -8,7 +8,7 @@ import scipy
 
 from pipeline.physics.modal.nearest_modes import modes_near
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_modes
-from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
+from pipeline.physics.sliding.model import FrictionState, sliding_model
 from pipeline.physics.stability.growth_balance import (
     BODY,
     CONTACT,
@@ -21,6 +21,7 @@ from pipeline.physics.stability.growth_balance import (
     growth_terms,
     joint_group,
 )
+from pipeline.physics.system.forms import spread
 from tests.stages.small_brake import small_brake
 
 STATE = FrictionState(0.5, 2e-8, -0.02)

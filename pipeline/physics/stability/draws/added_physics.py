@@ -48,6 +48,15 @@ class AddedPhysics:
                 force[members], slope[members] = force_at_rest(pushed, area[members], law.closure, law.pressure)
         return force, steeper * slope
 
+    def curvature(self, area, closure, of_table):
+        """(c,) N/m^2 of the law at ``closure`` (c,) m: of tables ``of_table(closure, closures, pressures)`` Pa/m^2, of
+        springs 0."""
+        found = np.zeros(len(closure))
+        for law, members in parts(self.law, len(closure)):
+            if not isinstance(law, Penalty):
+                found[members] = area[members] * of_table(self.steeper * closure[members], law.closure, law.pressure)
+        return self.steeper**2 * found
+
     def tangent(self, area, force, factors):
         """(stiffness (c,) N/m, damping (c,) N s/m) of contacts that carry a ``force`` (c,) N in a draw of Factors."""
         stiffness, damping = tangent(self.law, force, area)

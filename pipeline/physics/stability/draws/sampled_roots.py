@@ -9,7 +9,6 @@ in the whole model, and joins V.
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 import scipy
@@ -17,12 +16,14 @@ import scipy
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.growing_roots import growing_roots, spectrum_roots
 from pipeline.physics.modal.natural_modes import all_modes
-from pipeline.physics.sliding.equilibrium import model_about
-from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
+from pipeline.physics.sliding.model import SlidingModel
+from pipeline.physics.stability.draws.draw_system import BodyLosses, about, draw_system
 from pipeline.physics.stability.draws.sampled_sliding import GivenSliding, SlidingBasis, sliding_basis
 from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.friction_basis import friction_basis
-from pipeline.physics.stability.linearisation import beside_motion, element_rows, maxwell_branches, present, with_slopes
+from pipeline.physics.stability.linearisation import maxwell_branches, with_slopes
+from pipeline.physics.system.forms import spread
+from pipeline.physics.system.terms import Kind, What
 
 #: what joins the basis for the training: amplitudes above this share of the mode
 _JOINING = 1e-4
@@ -34,15 +35,14 @@ _GROWS, _SAME = 1e-2, 1e-6
 class Sampled:
     """A Family on its bases: what the roots of a draw need.
 
-    ``sliding``: basis of its sliding states; ``basis`` (n, m) mass-orthonormal and ``small``, the SlidingModel on it;
-    ``loss`` and ``lining`` (b, m, m) N/m of each body, the latter None without linings; ``below`` Hz limits the modes.
+    ``sliding``: basis of its sliding states; ``basis`` (n, m) mass-orthonormal, and ``small``, the SlidingModel, and
+    ``losses``, the BodyLosses, on it; ``below`` Hz limits the modes.
     """
 
     sliding: SlidingBasis | GivenSliding
     basis: np.ndarray
     small: SlidingModel
-    loss: np.ndarray
-    lining: np.ndarray | None
+    losses: BodyLosses
     below: float
 
     @property
@@ -85,58 +85,15 @@ class Sampled:
         last complex, what settles beside it or None)."""
         factors = self.family.filled(factors)
         contact = self.sliding.slide(factors, speed)
-        stiffness, imaginary = self._bodies(factors, speed)
-        (pressed, drawn, drag), beside = self._contacts(factors, speed, contact)
-        if contact.slopes.size:
-            rows = element_rows(self.small)
-            pressed = pressed + spread(rows, contact.slopes[0], rows)
-            drag = drag + spread(rows, contact.slopes[1], rows)
-        joints = self.small.joints
-        damping = drag + self.small.damping
-        if joints.damping.any():
-            viscous = joints.damping * factors.joint_stiffness * factors.joint_loss
-            damping = damping + spread(joints.rows, viscous, joints.rows)
-        if self.family.gyroscopic:
-            damping = damping + speed * self.small.gyroscopic
-        return (damping, stiffness + pressed, drawn + 1j * imaginary), beside
+        whole = draw_system(self.family, self.small.at_speed(speed), factors, contact, self.losses)
+        held, drawn = (whole.where(chosen) for chosen in (lambda term: not follows(term), follows))
+        change = drawn.matrix(Kind.STIFFNESS) + 1j * whole.matrix(Kind.LOSS)
+        return (whole.matrix(Kind.DAMPING), held.matrix(Kind.STIFFNESS), change), whole.beside
 
-    def _bodies(self, factors, speed):
-        """(real, imaginary) stiffness (m, m) N/m of bodies and joints of a draw."""
-        joints, family = self.small.joints, self.family
-        weight = np.broadcast_to(factors.joint_stiffness, len(joints.name)) * joints.stiffness
-        lossy = weight * factors.joint_loss * family.joint_loss_factor
-        lost = np.broadcast_to(factors.body_loss, len(self.loss))
-        stiffness = self.small.stiffness + spread(joints.rows, weight, joints.rows)
-        imaginary = _weighted(lost, self.loss, self._all_loss) + spread(joints.rows, lossy, joints.rows)
-        if family.centrifugal:
-            stiffness = stiffness + speed**2 * self.small.centrifugal
-        if self.lining is not None:
-            more = factors.lining - 1
-            stiffness = stiffness + more * self._all_lining
-            imaginary = imaginary + more * family.lining_loss_factor * _weighted(lost, self.lining, self._all_lining)
-        return stiffness, imaginary
 
-    @cached_property
-    def _all_loss(self):
-        return self.loss.sum(axis=0)
-
-    @cached_property
-    def _all_lining(self):
-        return self.lining.sum(axis=0)
-
-    def _contacts(self, factors, speed, contact):
-        """((K without friction, K_f, C) (m, m) of the contacts of a draw, as of ``SlidingModel.linearised``, what
-        settles beside them or None)."""
-        model, state, beside = about(self.family, self.small.at_speed(speed), factors, contact)
-        contacts, coupling = model.contacts, model.coupling(state)
-        along = (coupling * contacts.damping)[:, None] * contacts.normal
-        if np.any(state.speed_slope):
-            along += (contacts.preload * state.speed_slope)[:, None] * contacts.tangent
-        drag = _squared(contacts.normal, contacts.damping) + contacts.tangent.T @ along
-        if self.family.friction_damping:
-            drag += _squared(contacts.lateral, model.turning_drag(state.coefficient))
-        return (_squared(contacts.normal, contact.stiffness),
-                spread(contacts.tangent, coupling * contact.stiffness, contacts.normal), drag), beside
+def follows(term):
+    """Whether a Term is the stiffness by which friction follows the normal force."""
+    return term.name == What.CIRCULATORY
 
 
 def sampled(family, speeds, below, training=(NOMINAL,), smallest=1e-2):
@@ -162,34 +119,7 @@ def sampled(family, speeds, below, training=(NOMINAL,), smallest=1e-2):
 def _on(sliding, basis, below):
     """Sampled on a basis."""
     family = sliding.family
-    lining = None if family.lining is None else _by_body(family, family.lining, basis)
-    return Sampled(sliding, basis, family.model.projected(basis), _by_body(family, family.loss, basis), lining, below)
-
-
-def _weighted(weight, parts, whole):
-    """Sum (m, m) of the ``parts`` (b, m, m), which make the ``whole``, each with its ``weight`` (b,)."""
-    return weight[0] * whole if len(weight) and (weight == weight[0]).all() else np.tensordot(weight, parts, 1)
-
-
-def _squared(rows, weight):
-    """``spread`` of ``rows`` (c, m) with themselves, half the work where no ``weight`` (c,) is negative."""
-    if np.any(weight < 0):
-        return spread(rows, weight, rows)
-    half = np.sqrt(weight)[:, None] * rows
-    return half.T @ half
-
-
-def about(family, model, factors, contact):
-    """(SlidingModel about a sliding state, elements apart, FrictionState that acts at once, what settles beside it or
-    None) of a draw."""
-    friction = contact.friction if family.friction_slopes else FrictionState(contact.friction.coefficient)
-    model = model_about(model, contact, factors.damping_speed * family.damping_speed)
-    if family.added is None:
-        return model, friction, None
-    if contact.damping is not None:
-        model = replace(model, contacts=replace(model.contacts, damping=contact.damping))
-    states = family.added.states(model, contact.force)
-    return model, present(friction, states), beside_motion(model, friction, states)
+    return Sampled(sliding, basis, family.model.projected(basis), BodyLosses.on(family, basis), below)
 
 
 def _scattered(family):
@@ -213,45 +143,16 @@ def _missing(first, about, training, speed):
     family = first.family
     mass, _, stiffness = about.frictionless(gyroscopic=False, centrifugal=family.centrifugal)
     square, modes = all_modes(stiffness, mass)
-    high = square > (2 * np.pi * first.below) ** 2
+    high, losses = square > (2 * np.pi * first.below) ** 2, BodyLosses.whole(family)
     answers = [np.empty((family.model.size, 0))]
     for factors in training:
         growing, contact = first.modes(factors, speed), first.sliding.slide(factors, speed)
+        system = draw_system(family, family.model.at_speed(speed), factors, contact, losses)
         for root, shape in zip(growing.value, (first.basis @ growing.shape).T, strict=True):
-            force = modes[:, high].T @ _residual(family, factors, speed, contact, root, shape)
+            force = modes[:, high].T @ system.apply(root, shape)
             answer = modes[:, high] @ (force / (square[high] - abs(root) ** 2)) / np.linalg.norm(shape @ mass)
             answers.append(np.column_stack((answer.real, answer.imag)))
     return np.hstack(answers)
-
-
-def _residual(family, factors, speed, contact, root, shape):
-    """(n,) T(s) x in the whole model of a draw, for a root s and a shape x (n,)."""
-    model, state, beside = about(family, family.model.at_speed(speed), factors, contact)
-    contacts, joints = model.contacts, model.joints
-    normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
-    pressed = (contacts.stiffness + root * contacts.damping) * normal
-    along = model.coupling(state) * pressed + root * contacts.preload * state.speed_slope * tangent
-    force = pressed @ contacts.normal + along @ contacts.tangent
-    if family.friction_damping:
-        force += (root * model.turning_drag(state.coefficient) * lateral) @ contacts.lateral
-    elastic = factors.joint_stiffness * joints.stiffness * (1 + 1j * factors.joint_loss * family.joint_loss_factor)
-    viscous = factors.joint_stiffness * factors.joint_loss * joints.damping
-    force += ((elastic + root * viscous) * (joints.rows @ shape)) @ joints.rows
-    lost = np.broadcast_to(factors.body_loss, len(model.body_name))[model.coordinate_body]
-    force += root**2 * (model.mass @ shape) + root * (model.damping @ shape) + model.stiffness @ shape
-    force += 1j * lost * (family.loss @ shape)
-    if family.gyroscopic:
-        force += root * speed * (model.gyroscopic @ shape)
-    if family.centrifugal:
-        force += speed**2 * (model.centrifugal @ shape)
-    if family.lining is not None:
-        force += (factors.lining - 1) * (1 + 1j * lost * family.lining_loss_factor) * (family.lining @ shape)
-    if contact.slopes.size:
-        rows = element_rows(model)
-        force += ((contact.slopes[0] + root * contact.slopes[1]) * (rows @ shape)) @ rows
-    if beside is not None:
-        force -= beside.answers(root, shape)[0]
-    return force
 
 
 def _joined(mass, basis, more):
@@ -262,9 +163,3 @@ def _joined(mass, basis, more):
     kept = square > _JOINING**2
     return np.hstack((basis, more @ (direction[:, kept] / np.sqrt(square[kept]))))
 
-
-def _by_body(family, matrix, basis):
-    """(b, m, m): the block of each body of a ``matrix`` (n, n) that couples none, on the basis."""
-    body = family.model.coordinate_body
-    blocks = [np.flatnonzero(body == b) for b in range(len(family.model.body_name))]
-    return np.array([basis[b].T @ matrix[np.ix_(b, b)] @ basis[b] for b in blocks])

@@ -15,8 +15,9 @@ from functools import partial
 import numpy as np
 
 from pipeline.physics.contact.closure_law import force_at_rest
-from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
+from pipeline.physics.sliding.model import FrictionState, SlidingModel
 from pipeline.physics.stability.draws.added_physics import AddedPhysics
+from pipeline.physics.system.forms import spread
 
 
 @dataclass(frozen=True)
@@ -126,11 +127,13 @@ class Family:
         joints = replace(joints, stiffness=stiffer * joints.stiffness, damping=stiffer * lossier * joints.damping)
         contacts = replace(self.model.contacts, stiffness=factors.contact_stiffness * self.model.contacts.stiffness)
         model, loss, lining = replace(self.model, joints=joints, contacts=contacts), self.loss, self.lining
-        if lining is not None:
+        if lining is not None and factors.lining != 1:
             model = replace(model, stiffness=model.stiffness + (factors.lining - 1) * lining)
             loss, lining = loss + (factors.lining - 1) * self.lining_loss_factor * lining, factors.lining * lining
-        scale = np.sqrt(np.broadcast_to(factors.body_loss, len(self.model.body_name)))[body]
-        return replace(self, model=model, loss=scale[:, None] * loss * scale, lining=lining,
+        if np.any(np.not_equal(factors.body_loss, 1)):
+            scale = np.sqrt(np.broadcast_to(factors.body_loss, len(self.model.body_name)))[body]
+            loss = scale[:, None] * loss * scale
+        return replace(self, model=model, loss=loss, lining=lining,
                        joint_loss_factor=lossier * self.joint_loss_factor,
                        law_closure=np.asarray(self.law_closure) / factors.contact_stiffness,
                        damping_speed=factors.damping_speed * self.damping_speed,

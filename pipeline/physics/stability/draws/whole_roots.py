@@ -6,14 +6,16 @@ import numpy as np
 
 from pipeline.physics.modal.quadratic_eigenproblem import polished, quadratic_modes
 from pipeline.physics.sliding.equilibrium import closure_response, given_state, model_about, steady_sliding
-from pipeline.physics.sliding.model import FrictionState, spread
+from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding.structural_damping import equivalent_damping
-from pipeline.physics.stability.draws.sampled_roots import about
+from pipeline.physics.stability.draws.draw_system import about
 from pipeline.physics.stability.draws.sampled_sliding import whole_sliding
 from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.friction_basis import friction_basis
 from pipeline.physics.stability.linearisation import maxwell_branches, with_slopes
 from pipeline.physics.stability.refinement import moved_roots
+from pipeline.physics.system.forms import Block, spread
+from pipeline.physics.system.terms import Kind, Owner, Term, What
 
 #: growth rates above this negative share of the frequency are solved for in the whole model
 _NEARLY = 5e-4
@@ -39,11 +41,10 @@ def whole_roots(family, factors, speed, below, smallest=1e-3):
     modes = quadratic_modes(*viscous.projected(basis).linearised(
         friction, varied.friction_damping, varied.gyroscopic, varied.centrifugal),
         beside=beside and beside.projected(basis.T, basis))
-    mass, damping, stiffness = model.linearised(friction, varied.friction_damping, varied.gyroscopic,
-                                                varied.centrifugal)
+    matrices = system_about(varied, model, friction, beside).matrices()
     near = (modes.value.imag > abs(modes.value.real)) & (modes.value.real > -_NEARLY * abs(modes.value))
     near &= abs(modes.value) < 2 * np.pi * below
-    root = np.array([polished(mass, damping, stiffness + 1j * loss, s, basis @ x, beside)[0]
+    root = np.array([polished(*matrices, s, basis @ x, beside)[0]
                      for s, x in zip(modes.value[near], modes.right[:, near].T, strict=True)])
     return root[np.argsort(-root.real, kind="stable")]
 
@@ -77,6 +78,13 @@ def about_sliding(varied):
     contact = whole_sliding(varied).slide(NOMINAL, varied.model.speed)
     model, friction, beside = about(varied, varied.model, NOMINAL, contact)
     return with_slopes(model, contact.slopes), friction, beside
+
+
+def system_about(varied, model, friction, beside):
+    """System of a Family whose ``model`` is linearised about a sliding state; arguments as of ``about_sliding``."""
+    system = model.system(friction, varied.friction_damping, varied.gyroscopic, varied.centrifugal)
+    loss = Term.sliding(What.HYSTERETIC_LOSS, Kind.LOSS, Block(varied.imaginary_stiffness()), Owner.BODY)
+    return replace(system.and_([loss]), beside=beside)
 
 
 def sliding_state(varied):

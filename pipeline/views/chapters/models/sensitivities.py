@@ -24,8 +24,8 @@ WORDS = {
 def chapter(product, convergence, look):
     """Chapter of the product Sensitivities."""
     if not len(product.mode):
-        return Chapter("sensitivities", "What matters", "No unstable mode was examined: there is none, none was asked"
-                       " for, or the case has effects, which are not differentiated.", "No sensitivities.")
+        return Chapter("sensitivities", "What matters", "No unstable mode was examined: there is none, or none was"
+                       " asked for.", "No sensitivities.")
     return Chapter(
         "sensitivities", "What matters",
         f"Derivatives of the growth rate of {plural(len(product.mode), 'unstable mode')} to"
