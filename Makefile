@@ -26,7 +26,7 @@ FAST  := -m pytest -q -rs -m "not slow" -n auto --dist loadfile
 IGNORED = $(if $(filter tests,$(TESTS)),--ignore=tests/blind_trial/generators --ignore=tests/studies)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz fuzz_diagnosis trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_draws study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
+.PHONY: help setup setup-tests run test test-trial test-default coverage test-kernels test-python test-oldest test-newest test-slow test-study bench fuzz fuzz_diagnosis trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_concealed study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family study_draws study_kills pin_bench brake_bench worn_bench lint licences clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -136,6 +136,9 @@ study_squeal: $(TESTED)  ## identification rates on the practice pin-on-disc ben
 
 study_brake: $(TESTED)  ## identification rates on the practice disc brake; resumes case by case
 	$(BIN)/python -m tests.studies.brake $(ARGS)
+
+study_concealed: $(TESTED)  ## whether brakes with concealed physics squeal, how likely, and what helps, beside the truth
+	$(BIN)/python -m tests.studies.concealed_squeal $(ARGS)
 
 study_lines: $(TESTED)  ## whether a disc flexible in the loop is named from lines heard on concealed benches; resumes case by case
 	$(BIN)/python -m tests.studies.lines $(ARGS)

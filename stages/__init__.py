@@ -32,6 +32,8 @@ CHAINS = {
                             "complex_modes", "recording", "noise_events", "line_evidence", "report"),
     "lumped_squeal_records": ("lumped", "reduced_model", "effects", "complex_modes", "recording", "noise_events",
                               "line_evidence", "report"),
+    "lumped_brake": ("lumped", "reduced_model", "effects", "complex_modes", "probability", "sensitivities",
+                     "countermeasures", "report"),
     "lumped_modes": ("lumped", "reduced_model", "complex_modes", "report"),
     "lumped_squeal": ("lumped", "reduced_model", "effects", "complex_modes", "recording", "line_evidence", "report"),
     "noise_matrix": ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model",

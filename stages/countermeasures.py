@@ -81,12 +81,12 @@ def _companions(product, case):
 
 
 @stage(companions=_companions, check=_check, variants=_variants, further=_further, check_variants=check_different)
-def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: FrictionMap, effects: Effects | None,
-                    convergence: Convergence, probability: Probability, search: DesignSearch | None,
-                    varied_modes: Variants[ComplexModes], varied_models: Variants[ReducedModel],
-                    varied_maps: Variants[FrictionMap], varied_effects: Variants[Effects],
-                    varied_probabilities: Variants[Probability], settings: Settings,
-                    context: Context) -> Countermeasures:
+def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: FrictionMap | None,
+                    effects: Effects | None, convergence: Convergence | None, probability: Probability,
+                    search: DesignSearch | None, varied_modes: Variants[ComplexModes],
+                    varied_models: Variants[ReducedModel], varied_maps: Variants[FrictionMap],
+                    varied_effects: Variants[Effects], varied_probabilities: Variants[Probability],
+                    settings: Settings, context: Context) -> Countermeasures:
     """Compare unstable modes and the probability of squeal with those of declared variants of the brake.
 
     Roots of variants are those of the reduced model, moved by what the full matrices move the root of the case.
@@ -98,7 +98,7 @@ def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: Fric
     refined models move it by; changes of probabilities carry 95 % intervals (Newcombe).
     """
     base, names = Brake(modes, model, friction_map, effects), list(varied_modes)
-    others = [Brake(varied_modes[n], varied_models[n], varied_maps[n], varied_effects[n]) for n in names]
+    others = [Brake(varied_modes[n], varied_models[n], varied_maps.get(n), varied_effects[n]) for n in names]
     tasks = [(other, operating) for other in others for operating in range(len(modes.operating_speed))]
     compare = partial(_compared, base, convergence, stability_settings(modes).neutral)
     rows, points = context.map(compare, tasks, "operating points"), len(modes.operating_speed)

@@ -10,7 +10,7 @@ from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
 from pipeline.contract.errors import sentence_of
-from pipeline.diagnosis.output.files import companions
+from pipeline.diagnosis.output import files, squeal_case
 from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.output.unsolved import unsolved
 from pipeline.diagnosis.published_lists import Models, published_problem
@@ -47,7 +47,11 @@ def _check(sections):
                           f"forward {settings.forward}, held out: {', '.join(settings.held_out) or 'none'}")
 
 
-@stage(companions=companions, check=_check)
+def _companions(product, case):
+    return files.companions(product, case) | squeal_case.companions(product, case)
+
+
+@stage(companions=_companions, check=_check)
 def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Recording, bench: Bench | None,
               structure: Structure | None, modes: ComplexModes | None, surface: Surface | None,
               micro: MicroFriction | None, friction_map: FrictionMap | None, settings: Settings,

@@ -75,8 +75,8 @@ def _check(sections):
 
 
 @stage(check=_check)
-def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexModes, effects: Effects | None,
-                settings: Settings, context: Context) -> Probability:
+def probability(model: ReducedModel, friction_map: FrictionMap | None, modes: ComplexModes,
+                effects: Effects | None, settings: Settings, context: Context) -> Probability:
     """Estimate how likely unstable modes are over the scatter of the brake.
 
     Operating points, limits, terms and effects are those of complex_modes, loss factors always hysteretic. A draw

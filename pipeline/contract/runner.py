@@ -81,11 +81,11 @@ class ChainRun:
         """(name, run of the variant, its last stage, argument) for each variant that ``stage`` takes products from.
 
         Of a stage that searches, those that it asks for by what came of the variants in ``ready``; None = of all whose
-        products are there.
+        products are there. Products that no stage of the chain makes are left out.
         """
         made = further.asked(self, stage, ready)
-        return [(name, self.varied(name, changes), self.producer((product,)), argument)
-                for argument, product in stage.varied.items() for name, changes in made.items()]
+        return [(name, self.varied(name, changes), last, argument) for argument, product in stage.varied.items()
+                if (last := self.producer((product,))) for name, changes in made.items()]
 
     def varied(self, name, changes):
         """The run of a variant, which shares what its changes leave as it is."""

@@ -55,11 +55,13 @@ class Bench:
                                          " read", empty=True)
 
 
-@product(version=1)
+@product(version=2)
 class DiagnosedRun:
     """One run under the nominal, the recalibrated and the completed model."""
 
     held_out: Array = count("", "1 if the run was not fitted")
+    condition: Array = text("condition", "conditions that were constant in it")
+    condition_value: Array = quantity("1", "condition", "their values in SI units")
     time: Array = quantity("s", "sample", "time since the start of the run; sample number for features")
     measured: Array = quantity("1", "channel sample", "recorded samples; 0 where missing")
     valid: Array = count("channel sample", "1 where a sample was recorded")
@@ -129,7 +131,7 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=11)
+@product(version=12)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 

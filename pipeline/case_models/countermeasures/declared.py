@@ -17,9 +17,11 @@ from pipeline.contract import ConfigError, Section, option
 from pipeline.contract.received.names import checked_all
 
 #: stages whose settings make modes
-OF_MODES = ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes")
+OF_MODES = ("lumped", "surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model",
+            "complex_modes")
 #: settings that must stay, and why
 _FIXED = {"structure.pressures": "operating points are compared one by one",
+          "lumped.load_factors": "operating points are compared one by one",
           "complex_modes.speeds": "operating points are compared one by one",
           "complex_modes.squeal_from": "squeal is counted alike before and after",
           **dict.fromkeys(MODES_ALONE, "variants are computed in the reduced model, without a sweep over friction")}
@@ -79,7 +81,9 @@ def check_different(sections, varied):
     seen = {"": _of_modes(sections)}
     for name, settings in varied.items():
         shown, given = f"countermeasures.variants.{name.removeprefix(PREFIX)}", _of_modes(settings)
-        for stage, key in (("structure", "pressures"), ("complex_modes", "speeds"), ("complex_modes", "squeal_from")):
+        for stage, key in (each.split(".") for each in _FIXED if each not in MODES_ALONE):
+            if stage not in sections:
+                continue
             there, here = (getattr(each[stage], key) for each in (settings, sections))
             if there != here:
                 raise ConfigError(shown, f"the {stage}.{key} of the case", str(there), _FIXED[f"{stage}.{key}"])

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.case_models.countermeasures.nearby_modes import among, modes_about
+from pipeline.case_models.countermeasures.nearby_modes import among, modes_about, points_of, shapes_of
 from pipeline.physics.modal.shape_matching import common_points, counterparts
 
 UNCHANGED, WEAKER, STRONGER, GONE, NEW, AMBIGUOUS = STATES = (
@@ -46,15 +46,9 @@ def compared_modes(base, other, convergence, neutral, operating=None):
     operating point alone, an index. Roots after are those of the reduced model, moved by what the full matrices move
     the root before.
     """
-    points = common_points(*_surface(base.model), *_surface(other.model))
+    points = common_points(*points_of(base.model)[:2], *points_of(other.model)[:2])
     where = range(len(base.modes.operating_speed)) if operating is None else (operating,)
     return [row for k in where for row in _at(k, base, other, points, convergence, neutral)]
-
-
-def _surface(model):
-    """(positions (v, 3), name of the body (v,)) of the surface nodes of a product ReducedModel."""
-    names = np.array(list(map(str, model.body_name)))
-    return model.visible_position, names[np.asarray(model.visible_body, int)]
 
 
 def _at(operating, base, other, points, convergence, neutral):
@@ -64,7 +58,7 @@ def _at(operating, base, other, points, convergence, neutral):
     if not len(before) and not len(after):
         return []
     root, shape = modes_about(other, operating, np.concatenate((reduced, unstable)))
-    match = counterparts(points.mac(base.modes.unstable_shape[before], shape))
+    match = counterparts(points.mac(shapes_of(base, operating, before), shape))
     grows = root.real > neutral * abs(root)
     shift = base.modes.unstable_root[before] - reduced
     rows = [_row(operating, match, k, base.modes.unstable_root[j], root + shift[k], grows, convergence)
@@ -114,8 +108,11 @@ def _new(operating, base, points, unstable, shape, convergence):
 def growth_error(convergence, root):
     """By how much (1/s) the finer model of a product Convergence, or the reduction, moves the growth of a ``root``.
 
-    That of the mode of its frequency there; of others the largest share, or the tolerance where all is converged.
+    That of the mode of its frequency there; of others the largest share, or the tolerance where all is converged; 0
+    without one, of a model that nothing refines.
     """
+    if convergence is None:
+        return 0.0
     growth, neutral = abs(root.real), float(convergence.neutral)
     near = np.flatnonzero(abs(convergence.root.imag / root.imag - 1) <= _NEAR)
     if len(near):

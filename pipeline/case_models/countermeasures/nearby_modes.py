@@ -27,6 +27,26 @@ class Brake:
     effects: object = None
 
 
+def points_of(model):
+    """(positions (v, 3), name of the body (v,), recovery (v, 3, n)) of the points at which modes of a product
+    ReducedModel are compared: its surface nodes or, without any, one for each coordinate, weighted by its mass."""
+    names = np.array(list(map(str, model.body_name)))
+    if len(model.visible_position):
+        return model.visible_position, names[np.asarray(model.visible_body, int)], model.recovery
+    size, recovery = len(model.mass), np.zeros((len(model.mass), 3, len(model.mass)))
+    recovery[np.arange(size), 0, np.arange(size)] = np.sqrt(np.diag(model.mass))
+    return np.outer(np.arange(size), (1.0, 0.0, 0.0)), names[np.asarray(model.coordinate_body, int)], recovery
+
+
+def shapes_of(brake, operating, modes):
+    """(u, v, 3) shapes of unstable ``modes`` (u,) of a Brake at an operating point, on its points."""
+    if len(brake.model.visible_position) or not len(modes):
+        return np.reshape(brake.modes.unstable_shape[modes], (len(modes), len(points_of(brake.model)[0]), 3))
+    wanted = brake.modes.unstable_reduced[modes]
+    roots, shapes = modes_about(brake, operating, wanted)
+    return shapes[abs(roots - wanted[:, None]).argmin(axis=1)]
+
+
 def system_of(brake, operating):
     """((M, C, K) each (n, n), Settling or None) of a Brake about steady sliding at an operating point, an index."""
     state = sliding_at(brake.modes, brake.model, brake.friction_map, brake.effects, operating)
@@ -44,7 +64,7 @@ def among(root, roots, within=_SAME):
 def modes_about(brake, operating, targets):
     """(roots (h,) 1/s, shapes (h, v, 3) on the surface) of the modes of a Brake near any of the ``targets`` (t,)."""
     matrices, beside = system_of(brake, operating)
-    recovery = brake.model.recovery
+    recovery = points_of(brake.model)[2]
     roots, shapes = np.empty(0, complex), []
     for target in targets:
         if among(target, roots):

@@ -283,7 +283,9 @@ def _part(errors):
 def _run(problem, run, errors):
     """DiagnosedRun of one run of the Errors of its part."""
     nominal, recalibrated, completed = errors.predicted[run.name]
+    stated = {name: float(value) for name, value in run.conditions.items() if np.ndim(value) == 0}
     return DiagnosedRun(
-        held_out=int(run.held_out), time=np.arange(run.samples.shape[1]) / (run.rate or 1.0), measured=run.samples,
-        valid=run.valid.astype(int), nominal=nominal, recalibrated=recalibrated, completed=completed,
-        noise=problem.budget[run.name].std, error=errors.by_run[run.name])
+        held_out=int(run.held_out), condition=list(stated), condition_value=list(stated.values()),
+        time=np.arange(run.samples.shape[1]) / (run.rate or 1.0), measured=run.samples, valid=run.valid.astype(int),
+        nominal=nominal, recalibrated=recalibrated, completed=completed, noise=problem.budget[run.name].std,
+        error=errors.by_run[run.name])

@@ -5,14 +5,17 @@ no matrix of all coordinates.
 """
 
 from dataclasses import dataclass, replace
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import numpy as np
 import scipy
 
 Array = np.ndarray
-Matrix = np.ndarray | scipy.sparse.sparray | scipy.sparse.spmatrix
 Weight = np.ndarray | float
+if TYPE_CHECKING:
+    Matrix = np.ndarray | scipy.sparse.sparray | scipy.sparse.spmatrix
+else:
+    Matrix = Any        # whose module is loaded at its first use
 
 
 class Form(Protocol):
