@@ -81,7 +81,8 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Every operating point with unstable modes is simulated twice: from a small motion in all of them, whose growth is
     compared with the complex modes, and from half the reach of the contact law to the limit cycle. Effects act as in
-    complex_modes; those with a memory, or with elements of their own, are refused unless 'without' names them.
+    complex_modes, memory of friction included; laws of contacts and joints of their own are refused unless 'without'
+    names them.
 
     Method:
     The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}
@@ -149,20 +150,31 @@ def _simulate(task, model, friction_map, modes, terms, given, settings):
     """Fields of one operating point; ``task``: (its index in complex modes, settings of this simulation, the same with
     another step for a check on the same system, or None)."""
     point, settings, finer = task
-    system = _system(point, model, friction_map, modes, terms, given, settings)
-    growing = system.modes.growing(0.0)
-    growing = growing[np.isin(system.modes.root[growing], modes.unstable_root[modes.unstable_operating == point])]
-    start = np.zeros(len(system.modes.root), complex)
-    start[growing] = _SMALL * system.reach[growing]
-    linear = np.log(_STILL_SMALL / _SMALL) / system.modes.root[growing].real.max()
-    small = _advanced(system, settings, start, max(min(settings.onset, linear), settings.step))
-    seen = np.log(small.state[-1, growing] / small.state[0, growing])
-    turned = np.unwrap(np.angle(small.state[:, growing]), axis=0)
-    seen = (seen.real + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])
-    start[growing] = _LARGE * system.reach[growing]
-    return {"onset": (system.modes.root[growing], seen), "patches": len(system.patches.load),
-            "modes": len(system.modes.root), **_cycle(system, start, model.sensor_rows, settings),
-            "finer": finer and _cycle(system, start, model.sensor_rows, finer, book=False)}
+    system, unstable, (starts, settled), rows = _system(point, model, friction_map, modes, terms, given, settings)
+    linear = np.log(_STILL_SMALL / _SMALL) / unstable.real.max()
+    small = partial(_grown, system, settings, max(min(settings.onset, linear), settings.step))
+    # what friction remembers of one mode drives the others, whose growth would not be their own
+    apart = [[k] for k in range(len(unstable))] if _remembers(system) else [[*range(len(unstable))]]
+    seen = np.concatenate([small(starts[:, each], settled[:, each]) for each in apart])
+    start = _LARGE * starts.sum(axis=1)
+    return {"onset": (unstable, seen), "patches": len(system.patches.load),
+            "modes": len(system.modes.root), **_cycle(system, start, rows, settings),
+            "finer": finer and _cycle(system, start, rows, finer, book=False)}
+
+
+def _remembers(system):
+    """Whether friction of a SlidingMotion remembers."""
+    return system.patches.states.kind.size > 0
+
+
+def _grown(system, settings, duration, starts, settled):
+    """(g,) 1/s with which small motions of a SlidingMotion grow and turn along ``starts`` (m, g), all at once, with
+    what is ``settled`` (k, g) beside them."""
+    memory = {"settled": _SMALL * settled.sum(axis=1)} if _remembers(system) else {}
+    small = _advanced(system, settings, _SMALL * starts.sum(axis=1), duration, **memory)
+    along = small.state @ starts.conj()
+    turned = np.unwrap(np.angle(along), axis=0)
+    return (np.log(abs(along[-1] / along[0])) + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])
 
 
 def _advanced(system, settings, start, duration, *options, **others):
@@ -178,27 +190,48 @@ def _points(modes, settings):
 
 
 def _system(point, model, friction_map, modes, terms, given, settings):
-    """SlidingMotion at one operating point of complex modes, with its roots."""
+    """(SlidingMotion at one operating point of complex modes, the unstable roots (g,) there, how to start in them, see
+    ``_starts``, rows (s, n) of the sensors).
+
+    Its roots are those of complex modes; where friction remembers, they are those without what it remembers, which acts
+    beside them.
+    """
     linear, pressure = stability_settings(modes), modes.operating_pressure[point]
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, float(modes.operating_speed[point]), linear.damping_speed, terms, given)
-    if case.moved or case.bench.model.elements:
+    if case.bench.model.elements:
         raise ConfigError("limit_cycle", "effects that change friction or linear terms", "one with laws of its own",
                           "leave it out here, by limit_cycle.without")
     friction, plain = mapped_friction(friction_map, linear.sliding_distance)
-    steady = case.slide(closure_response(case.bench.model, linear.centrifugal), pressure * model.input_area, friction,
-                        plain, linear)
-    if steady.states is not None and len(steady.states[0].kind):
-        raise ConfigError("limit_cycle", "friction without a memory", "friction that remembers load or speed",
-                          "leave it out here, by limit_cycle.without")
+    steady = case.seeking.slide(case.response(linear.centrifugal), pressure * model.input_area, friction, plain, linear)
     about, limit = steady.about(case.bench.model), linear.frequency_max
+    beside = steady.beside(about, linear.friction_slopes)
+    remembers = beside is not None
+    if remembers and settings.solver == EXUDYN:
+        raise ConfigError("limit_cycle.solver", f"{COMPILED}, whose steps carry what friction remembers", EXUDYN,
+                          "leave it out")
     root, reduced = _roots(point, modes, linear)
-    whole = sliding_modes(about, steady.acting(linear.friction_slopes), limit, settings.smallest_correction, reduced,
-                          friction_damping=linear.friction_damping, gyroscopic=linear.gyroscopic,
-                          centrifugal=linear.centrifugal)
-    return sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
-                          whole.with_roots(root, reduced).damped_above(limit, settings.damping_above),
-                          model.contact_body, (settings.patch, settings.patches), settings.stick_speed)
+    whole = sliding_modes(about, steady.acting(linear.friction_slopes), limit, settings.smallest_correction,
+                          () if remembers else reduced, friction_damping=linear.friction_damping,
+                          gyroscopic=linear.gyroscopic, centrifugal=linear.centrifugal)
+    whole = whole if remembers else whole.with_roots(root, reduced)
+    unstable = modes.unstable_root[modes.unstable_operating == point]
+    system = sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
+                            whole.damped_above(limit, settings.damping_above), model.contact_body,
+                            (settings.patch, settings.patches), settings.stick_speed)
+    return system, unstable, _starts(system, unstable, about.mass, beside), about.sensor_rows
+
+
+def _starts(system, unstable, mass, beside):
+    """((m, g) modal coordinates of a SlidingMotion in its ``unstable`` modes, as large as the contact law reaches,
+    (k, g) what settles there)."""
+    if beside is None:
+        found = np.eye(len(system.modes.root), dtype=complex)[system.modes.nearest(unstable)]
+        return np.array([system.reaching(each) for each in found]).T, np.zeros((0, len(found)))
+    found, settled = zip(*(system.modes.coordinates(mass, beside, root) for root in unstable), strict=True)
+    sizes = [system.reaching(each) for each in found]
+    scale = [abs(size).max() / abs(each).max() for size, each in zip(sizes, found, strict=True)]
+    return np.array(sizes).T, np.array(settled).T * scale
 
 
 def _roots(point, modes, linear):

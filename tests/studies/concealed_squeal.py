@@ -121,7 +121,8 @@ def points_of(document):
 def compared(truth, told):
     """(largest error of the frequency and of the growth rate of the strongest mode over the operating points, as a
     share; errors of both probabilities) of what is ``told``, a Squeal, beside the ``truth``."""
-    strongest = [[roots[np.argmax(roots.real)] if len(roots) else np.nan for roots in each.roots]
+    none = complex(np.nan, np.nan)
+    strongest = [[roots[np.argmax(roots.real)] if len(roots) else none for roots in each.roots]
                  for each in (truth, told)]
     true_roots, roots = np.array(strongest)
     return (float(np.max(abs(roots.imag / true_roots.imag - 1))), float(np.max(abs(roots.real / true_roots.real - 1))),

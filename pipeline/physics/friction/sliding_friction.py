@@ -33,15 +33,16 @@ def sliding_part(slip, stick_speed):
 
 
 @njit(inline="always")
-def sliding_friction(normal, pressure, slip, slip_x, slip_y, mu, by_pressure, by_speed, stick_speed):
+def sliding_friction(normal, pressure, slip, slip_x, slip_y, mu, by_pressure, by_speed, stick_speed, share=1.0):
     """SlidingForce under the force ``normal`` N at ``pressure`` Pa and the slip velocity (slip_x, slip_y) m/s.
 
     ``slip`` is the size of the slip velocity; ``mu``, ``by_pressure`` (1/Pa) and ``by_speed`` (s/m) are the friction
-    coefficient and its slopes at that pressure and slip speed; ``stick_speed`` v_s in m/s.
+    coefficient and its slopes at that pressure and slip speed; ``stick_speed`` v_s in m/s; ``share``: what is heard at
+    once of a change of the normal force.
     """
     part, part_slope = sliding_part(slip, stick_speed)
     x, y = (slip_x / slip, slip_y / slip) if slip > 0.0 else (1.0, 0.0)
-    force, slide = normal * mu * part, part * (mu + pressure * by_pressure)
+    force, slide = normal * mu * part, share * part * (mu + pressure * by_pressure)
     along = normal * (mu * part_slope + by_speed * part)
     across = force / slip if slip > 0.0 else along
     return SlidingForce(force * x, force * y, slide * x, slide * y, along * x * x + across * y * y,

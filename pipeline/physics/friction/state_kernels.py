@@ -90,6 +90,14 @@ def _kept(reach):
 
 
 @borrowing
+def advanced(kind, p, x, load, area, speed, drawn, step):
+    """A state ``x`` a ``step`` s later, under a load N, a slip speed and a friction force ``drawn`` >= 0 that stay."""
+    source, rate = source_and_rate(kind, p, load, area, speed, drawn)
+    keep, mean = _kept(rate * step)
+    return keep * x + mean * step * source
+
+
+@borrowing
 def expect(states, value, friction, load, slip, drawn, angle, turned, step, middle):
     """Fill the columns of ``friction`` for the step to come, from states ``value`` (k, 2) and forces at its begin.
 
@@ -113,9 +121,7 @@ def expect(states, value, friction, load, slip, drawn, angle, turned, step, midd
                 j[SPEED_KEPT] = 0.5 * (value[k, 1] + j[SPEED_KEPT] - last * speed)
                 j[LOAD_SHARE] = 0.5 * last
             continue
-        source, rate = source_and_rate(kind, p, load[i], states.area[i], speed, abs(drawn[i]))
-        keep, mean = _kept(rate * step)
-        after = keep * value[k, 0] + mean * step * source
+        after = advanced(kind, p, value[k, 0], load[i], states.area[i], speed, abs(drawn[i]), step)
         if kind == DISTANCE:
             j[READ_AT] = (1.0 - share) * value[k, 0] + share * after
         else:
@@ -140,7 +146,5 @@ def settle(states, value, load, loaded, slip, slipped, drawn, step):
             if loaded[i] == 0.0:
                 value[k, 0] = 0.0
             continue
-        source, rate = source_and_rate(kind, p, 0.5 * (load[i] + loaded[i]), states.area[i], 0.5 * (speed + other),
-                                       abs(drawn[i]))
-        keep, mean = _kept(rate * step)
-        value[k, 0] = keep * value[k, 0] + mean * step * source
+        value[k, 0] = advanced(kind, p, value[k, 0], 0.5 * (load[i] + loaded[i]), states.area[i], 0.5 * (speed + other),
+                               abs(drawn[i]), step)

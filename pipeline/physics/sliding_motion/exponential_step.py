@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pipeline.physics.numerics.compiled import njit
-from pipeline.physics.sliding_motion.patch_forces import beyond_linear
+from pipeline.physics.sliding_motion.patch_forces import beyond_linear, foresee, remember
 
 DONE, UNSETTLED = 0, 1
 SWEEPS, TOLERANCE, SHORTEST = 200, 3e-5, 1e-4
@@ -147,14 +147,16 @@ def add_rows(matrix, values, which, result):
 
 
 @njit
-def advance(patches, steps, energy, state, past, done, count, every, record, spent):
+def advance(patches, steps, energy, state, past, memory, done, count, every, record, spent):
     """(code, step, sweeps) after the steps ``done`` + 1 to ``count`` from ``state`` (2m,), which ends where they end,
     as do the others.
 
     ``past`` (DEPTH, 3, p) contact forces beyond the linear ones at the begin and at the steps before it, from which
-    those at the end of a step are extrapolated; ``spent`` (3,) J: WORK, LOSS, ADDED so far. A step without a solution
-    leaves all as it was before it.
+    those at the end of a step are extrapolated; ``memory``: states of friction (s, 2), and what they have seen, see
+    ``foresee``; ``spent`` (3,) J: WORK, LOSS, ADDED so far. A step without a solution leaves all as it was
+    before it.
     """
+    value, heard = memory
     size, p = state.size, patches.load.size
     base, reached, ahead, modal = np.empty(size), np.empty(size), np.empty(size), np.empty((DEPTH, size))
     y, trial, reply = np.empty((4, p)), np.empty((3, p)), np.empty((3, p))
@@ -177,6 +179,7 @@ def advance(patches, steps, energy, state, past, done, count, every, record, spe
         _times(steps.end, ahead, reached)
         y[:] = 0.0
         multiply(steps.motion, reached, y.ravel())
+        foresee(patches, value, heard, steps.step)
         settled, more = _settle(patches, steps, limit, trial.ravel(), y, reply)
         sweeps += more
         if settled:
@@ -184,6 +187,7 @@ def advance(patches, steps, energy, state, past, done, count, every, record, spe
             for k in range(DEPTH - 1, 0, -1):
                 past[k], modal[k] = past[k - 1], modal[k - 1]
             past[0] = reply
+            remember(patches, value, heard, y, steps.step)
             spread(steps.force, reply.ravel(), modal[0])
             state[:] = base
             _times(steps.end, modal[0], state)

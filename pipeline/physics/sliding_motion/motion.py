@@ -14,7 +14,9 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
-from pipeline.physics.friction.dry_friction import READ_AT, at_one_distance, characteristic, kernel
+from pipeline.physics.friction.dry_friction import FACTOR, READ_AT, at_one_distance, characteristic, kernel
+from pipeline.physics.friction.state_kernels import MEMORY, SETTLING, StateKernel
+from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding_motion.exponential_step import (
     ADDED,
@@ -29,7 +31,7 @@ from pipeline.physics.sliding_motion.exponential_step import (
     modal_rate,
     step_kernel,
 )
-from pipeline.physics.sliding_motion.patch_forces import PatchKernel, beyond_linear
+from pipeline.physics.sliding_motion.patch_forces import PatchKernel, beyond_linear, foresee
 from pipeline.physics.sliding_motion.patches import contact_patches
 from pipeline.physics.time_stepping.normal_laws import normal_kernel
 
@@ -68,11 +70,13 @@ class Run:
 
 @dataclass(frozen=True)
 class SlidingMotion:
-    """A sliding system about steady sliding: its SlidingModes and PatchKernel, rows of the patches (4p, 2m) and modal
-    forces (3p, 2m) as in a StepKernel, and the forms of its energy."""
+    """A sliding system about steady sliding: its SlidingModes and PatchKernel, which entries of a Settling of its
+    contacts the states (s, 2) of friction are, rows of the patches (4p, 2m) and modal forces (3p, 2m) as in a
+    StepKernel, and the forms of its energy."""
 
     modes: object
     patches: PatchKernel
+    settling: np.ndarray
     motion: np.ndarray
     force: np.ndarray
     energy: EnergyKernel
@@ -82,31 +86,33 @@ class SlidingMotion:
         modes = self.modes
         return modes.weight * ((rows @ modes.basis) @ modes.right) * modes.own
 
-    def run(self, start, step, duration, every=1, book=False):
+    def run(self, start, step, duration, every=1, book=False, settled=None):
         """Run from ``start``: modal coordinates (m,), or the ``end`` of an earlier run, kept every so many steps.
 
+        ``settled`` (k,): what the entries of a Settling of the contacts begin with, else 0.
         Raises ConfigError without a step, ConvergenceError with the time where a step has no solution.
         """
         count = round(duration / step) if step > 0 else 0
         if count < every:
             raise ConfigError("sliding motion: step", "a positive step, at most as long as the motion",
                               f"{step:g} s for {duration:g} s")
-        state, past = (each.copy() for each in (start if isinstance(start, tuple) else self._begin(start)))
+        begin = start if isinstance(start, tuple) else self._begin(start, settled)
+        state, past, *memory = (each.copy() for each in begin)
         rows = count // every
         record = Record(np.empty((rows, len(state))), np.empty((rows, 2)), np.zeros((rows, 4)))
         energy = self.energy if book else NO_BOOK
-        sweeps = self._advance((state, past), step, count, every, record, energy)
+        sweeps = self._advance((state, past, *memory), step, count, every, record, energy)
         half, energies = len(state) // 2, record.energy.T
         return Run(step * every * np.arange(1, rows + 1), record.state[:, :half] + 1j * record.state[:, half:],
                    *record.share.T, energies[WORK], energies[LOSS], energies[ADDED], energies[STORED], sweeps / count,
-                   (state, past))
+                   (state, past, *memory))
 
     def _advance(self, motion, step, count, every, record, energy):
         """Sweeps of all steps; a step that has no solution is taken in finer ones."""
         done, sweeps, spent, none = 0, 0, np.zeros(3), Record(*np.empty((2, 0, 0)), np.empty((0, 4)))
         while done < count:
-            code, number, more = advance(self.patches, self._kernel(step), energy, *motion, done, count, every, record,
-                                         spent)
+            code, number, more = advance(self.patches, self._kernel(step), energy, *motion[:2], motion[2:], done, count,
+                                         every, record, spent)
             done, sweeps = number, sweeps + more
             parts, before = 1, tuple(each.copy() for each in (*motion, spent))
             while code != DONE:
@@ -117,8 +123,8 @@ class SlidingMotion:
                     raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
                                            "none after the last iteration", "lower limit_cycle.patch"
                                            " or limit_cycle.step, or raise limit_cycle.stick_speed")
-                code, _, more = advance(self.patches, self._kernel(step / parts), energy, *motion, 0, parts, parts + 1,
-                                        none, spent)
+                code, _, more = advance(self.patches, self._kernel(step / parts), energy, *motion[:2], motion[2:], 0,
+                                        parts, parts + 1, none, spent)
                 sweeps += more
         return sweeps
 
@@ -132,12 +138,18 @@ class SlidingMotion:
     def _kernels(self):
         return {}
 
-    def _begin(self, start):
-        """(state, contact forces beyond the linear ones, as if they had always been) at modal coordinates (m,)."""
-        p = len(self.patches.load)
+    def _begin(self, start, settled=None):
+        """(state, contact forces beyond the linear ones, as if they had always been, states of friction as in steady
+        sliding, and what they have seen) at modal coordinates (m,)."""
+        patches, p = self.patches, len(self.patches.load)
         state, rest = np.concatenate((start.real, start.imag)), np.zeros((3, p))
-        beyond_linear(self.patches, (self.motion @ state).reshape(4, -1), rest, np.zeros((3, 4, p)))
-        return state, np.array([rest] * DEPTH)
+        value = started(patches.states, patches.load, patches.speed)
+        if settled is not None:
+            value += np.where(self.settling < 0, 0.0, settled[self.settling])
+        seen = np.array([[patches.load, abs(patches.speed), abs(patches.drawn)]] * 2)
+        foresee(patches, value, seen, 0.0)
+        beyond_linear(patches, (self.motion @ state).reshape(4, -1), rest, np.zeros((3, 4, p)))
+        return state, np.array([rest] * DEPTH), value, seen
 
     def rate(self, start):
         """dz/dt (m,) at modal coordinates (m,): for other integrators and for tests."""
@@ -154,18 +166,22 @@ class SlidingMotion:
     def _root(self):
         return np.array([self.modes.root.real, self.modes.root.imag])
 
+    def reaching(self, coordinates):
+        """Modal ``coordinates`` (m,) times what makes a patch move by the scale of the contact law over a period."""
+        rows = self.motion[:len(self.patches.load)]
+        moved = (rows @ np.concatenate((part.real, part.imag)) for part in (coordinates, 1j * coordinates))
+        return self.patches.scale / max(np.hypot(*moved).max(), np.finfo(float).tiny) * coordinates
+
     @cached_property
     def reach(self):
         """(m,) amplitude of each modal coordinate at which a patch moves by the scale of the contact law."""
-        m, p = len(self.modes.root), len(self.patches.load)
-        largest = np.hypot(self.motion[:p, :m], self.motion[:p, m:]).max(axis=0)
-        return self.patches.scale / np.maximum(largest, np.finfo(float).tiny)
+        return np.array([abs(self.reaching(each)).max() for each in np.eye(len(self.modes.root), dtype=complex)])
 
 
 def sliding_motion(model, closure, friction, law, modes, group, size, stick_speed):
     """SlidingMotion of a SlidingModel linearised about its contacts.
 
-    ``closure`` (c,) m in steady sliding; ``friction``: Friction of the contacts, without states; ``law``: Table;
+    ``closure`` (c,) m in steady sliding; ``friction``: Friction of the contacts, whose states settle; ``law``: Table;
     ``modes``: SlidingModes; ``group`` (c,) number of the face of each contact, ``size`` (contacts in a patch at
     most, patches of a face at most): see ``contact_patches``; ``stick_speed`` m/s.
     """
@@ -176,7 +192,7 @@ def sliding_motion(model, closure, friction, law, modes, group, size, stick_spee
     position, force = modes.weight * (rows @ modes.right), rows @ modes.left
     p = len(patches.first) - 1
     return SlidingMotion(
-        modes, _patch_kernel(model, closure, friction, law, patches, stick_speed),
+        modes, *_patch_kernel(model, closure, friction, law, patches, stick_speed),
         np.ascontiguousarray(_real(np.vstack((position[:p], position * modes.own)))),
         np.ascontiguousarray(np.hstack((force.real, force.imag))), _energy(model, modes))
 
@@ -194,17 +210,33 @@ def _patch_kernel(model, closure, friction, law, patches, stick_speed):
     dry, per_load = at_one_distance(dry), 1 / patches.summed(contacts.area)
     np.divide(patches.summed(contacts.preload * contacts.pressure), load**2, out=per_load, where=load > 0)
     first = patches.member[patches.first[:-1]]
+    states, settling = _states(friction, len(contacts.area), first, 1 / per_load)
     dry = dry._replace(contact=dry.contact[first])
+    dry.contact[:, FACTOR] *= factors(states, started(states, load, speed), 0.0)
     mu, over_pressure, over_slip = np.array([
         characteristic(dry, i, load[i] * per_load[i], abs(speed[i]), dry.contact[i, READ_AT], speed[i])[:3]
         for i in range(len(load))]).T
     load, stiffness, damping = force[:, _RESTING], *map(patches.summed, (contacts.stiffness, contacts.damping))
-    coupling = np.sign(speed) * FrictionState(mu, over_pressure).load_slope(load * per_load)
-    linear = np.array([stiffness, damping, coupling * stiffness, coupling * damping, load * over_slip,
+    at_once = np.ones(len(load))
+    at_once[states.contact[states.kind == MEMORY]] = 0.0
+    coupling = at_once * np.sign(speed) * FrictionState(mu, over_pressure).load_slope(load * per_load)
+    linear = np.array([stiffness, damping, coupling * stiffness, coupling * damping, at_once * load * over_slip,
                        np.divide(mu * load, abs(speed), out=np.zeros(len(load)), where=speed != 0)])
     return PatchKernel(
         lowest, interval, force, closed, len(closure), normal.damping_speed[first], load, np.sign(speed) * mu * load,
-        speed, per_load, dry, linear, float(stick_speed), float(load.sum() / stiffness.sum()))
+        speed, per_load, dry, states, linear, float(stick_speed), float(load.sum() / stiffness.sum())), settling
+
+
+def _states(friction, count, first, area):
+    """(StateKernel of the states that settle at patches of ``area`` (p,) m^2, each with the laws of its ``first`` (p,)
+    contact of ``count``; their entries (s, 2) in a Settling of the contacts, -1 for none)."""
+    whole, patch = state_kernel(friction, np.ones(count)), np.full(count, -1)
+    patch[first] = np.arange(len(first))
+    entries = np.where(np.isin(whole.kind, SETTLING), 1 + (whole.kind == MEMORY), 0)
+    begin, kept = np.cumsum(entries) - entries, (patch[whole.contact] >= 0) & (entries > 0)
+    settling = np.column_stack((begin, np.where(entries > 1, begin + 1, -1)))[kept]
+    return StateKernel(whole.kind[kept], patch[whole.contact[kept]], whole.parameter[kept], np.array(area, float),
+                       whole.begin[first]), settling
 
 
 def _normal_tables(law, closure, patches):

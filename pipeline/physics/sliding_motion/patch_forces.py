@@ -6,7 +6,8 @@ rows. Its contacts j carry
     N = (1 - u' / vd) sum_j A_j p_j(c_j - u),      F = N mu(p, |s|) g(|s|) s / |s|,      s = (v0 - v, -w),
 
 p being the mean pressure of its closed contacts and g = 1 except for sticking, which is creep slower than
-``stick_speed``. The sum is a table over u, finer than the law grows by more than a few per mille in a row.
+``stick_speed``. The sum is a table over u, finer than the law grows by more than a few per mille in a row. Friction
+that remembers hears of N and s what its states leave of them (``friction.state_kernels``).
 """
 
 from typing import NamedTuple
@@ -14,8 +15,16 @@ from typing import NamedTuple
 import numpy as np
 
 from pipeline.physics.contact.closure_law import damped
-from pipeline.physics.friction.dry_friction import READ_AT, FrictionKernel, characteristic
+from pipeline.physics.friction.dry_friction import (
+    FACTOR,
+    LOAD_KEPT,
+    LOAD_SHARE,
+    READ_AT,
+    FrictionKernel,
+    characteristic,
+)
 from pipeline.physics.friction.sliding_friction import sliding_friction
+from pipeline.physics.friction.state_kernels import MEMORY, StateKernel, advanced, expect, factor, settle
 from pipeline.physics.numerics.compiled import njit
 
 
@@ -33,6 +42,7 @@ class PatchKernel(NamedTuple):
     speed: np.ndarray       # (p,) m/s, v0, signed
     pressure_per_load: np.ndarray   # (p,) 1/m^2
     friction: FrictionKernel    # of the patches
+    states: StateKernel     # what their friction remembers
     linear: np.ndarray      # (6, p) slopes: see ``linear_forces``
     stick_speed: float      # m/s
     scale: float            # m, closure in which the law grows by e
@@ -54,9 +64,43 @@ def normal_at(k, i, moved, rate):
 @njit(inline="always")
 def patch_friction(friction, i, normal, pressure_per_load, along, aside, stick_speed):
     """SlidingForce of patch i under ``normal`` N at slip velocities ``along`` and ``aside`` of the drive, m/s."""
-    pressure, slip = normal * pressure_per_load, np.sqrt(along * along + aside * aside)
+    share, slip = friction.contact[i, LOAD_SHARE], np.sqrt(along * along + aside * aside)
+    heard = friction.contact[i, LOAD_KEPT] + share * normal
+    pressure = heard * pressure_per_load
     mu, by_pressure, by_speed, _ = characteristic(friction, i, pressure, slip, friction.contact[i, READ_AT], along)
-    return sliding_friction(normal, pressure, slip, along, aside, mu, by_pressure, by_speed, stick_speed)
+    return sliding_friction(heard, pressure, slip, along, aside, mu, by_pressure, by_speed, stick_speed, share)
+
+
+@njit
+def foresee(k, value, seen, step):
+    """Let friction hear what its states ``value`` (s, 2) will leave at the end of a ``step`` s.
+
+    ``seen`` (2, 3, p): N, slip m/s and friction N at its begin, and one step before, from which those of its middle
+    follow along a line: factors would be late by half a step otherwise.
+    """
+    states, contact = k.states, k.friction.contact
+    if states.kind.size:
+        expect(states, value, k.friction, seen[0, 0], seen[0, 1], seen[0, 2], 0.0, 0.0, step, False)
+        contact[:, FACTOR] = 1.0
+        for s in range(states.kind.size):
+            kind, i, p = states.kind[s], states.contact[s], states.parameter[s]
+            if kind != MEMORY:
+                middle = 1.5 * seen[0, :, i] - 0.5 * seen[1, :, i]
+                after = advanced(kind, p, value[s, 0], middle[0], states.area[i], abs(middle[1]), middle[2], step)
+                contact[i, FACTOR] *= factor(kind, p, after, 0.0)
+
+
+@njit
+def remember(k, value, seen, y, step):
+    """Bring states ``value`` (s, 2) to the end of a ``step`` s with the motion ``y`` (4, p), and what was ``seen``."""
+    if k.states.kind.size:
+        seen[1] = seen[0]
+        for i in range(k.load.size):
+            load = normal_at(k, i, y[0, i], y[1, i])[0]
+            along, aside = k.speed[i] - y[2, i], -y[3, i]
+            force = patch_friction(k.friction, i, load, k.pressure_per_load[i], along, aside, k.stick_speed)
+            seen[0, :, i] = load, np.sqrt(along * along + aside * aside), np.sqrt(force.x**2 + force.y**2)
+        settle(k.states, value, seen[1, 0], seen[0, 0], seen[1, 1], seen[0, 1], 0.5 * (seen[0, 2] + seen[1, 2]), step)
 
 
 @njit(inline="always")

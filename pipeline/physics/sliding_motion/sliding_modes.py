@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.modal.quadratic_eigenproblem import polished, quadratic_modes
+from pipeline.physics.modal.quadratic_eigenproblem import operator, polished, quadratic_modes
 from pipeline.physics.stability.friction_basis import friction_basis
 
 #: an imaginary part below this share of the root is rounding
@@ -72,6 +72,22 @@ class SlidingModes:
         root = self.root.copy()
         root[mode] = roots
         return replace(self, root=root)
+
+    def nearest(self, roots):
+        """Indices (b,) of the modes that move nearest to the ``roots`` (b,) of positive frequency, another for each."""
+        return replace(self, own=self.root)._counterparts(roots)[0]
+
+    def coordinates(self, mass, beside, root):
+        """((m,) modal coordinates, (k,) what settles) of the real motion at time 0 in the mode near a ``root`` 1/s of
+        the system with a Settling ``beside`` it; ``mass`` (n, n)."""
+        given = self.basis.T @ mass @ self.basis, self.damping, self.stiffness
+        memory = beside.projected(self.basis.T, self.basis)
+        first = np.linalg.solve(operator(*given, root, memory)[0], np.ones(len(given[0]), complex))
+        own, shape = polished(*given, root, first, memory)
+        displaced, moving = shape.real, (own * shape).real
+        moved = self.left.T @ (given[0] @ moving + given[1] @ displaced) + self.own * (
+            self.left.T @ (given[0] @ displaced))
+        return moved, ((memory.by_place + own * memory.by_speed) @ shape / (own + memory.decay)).real
 
     def _counterparts(self, roots):
         """(modes (b,), another for each of the ``roots`` (b,), and their relative distances (b,))."""
