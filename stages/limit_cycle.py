@@ -14,16 +14,17 @@ from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.operating_points import Speeds, selected_speeds
 from pipeline.case_models.pads import kept
 from pipeline.case_models.scatter import stability_settings
-from pipeline.case_models.steady_sliding import mapped_friction, posed
+from pipeline.case_models.steady_sliding import branch_stiffness, mapped_friction, posed
 from pipeline.case_models.unstable_roots import nearly
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.signals.limit_cycle import harmonic_levels
 from pipeline.physics.signals.listening import RATE, audible, held
 from pipeline.physics.signals.oscillation import dominant_frequency
-from pipeline.physics.sliding.equilibrium import closure_response
 from pipeline.physics.sliding_motion import exudyn_motion
 from pipeline.physics.sliding_motion.motion import sliding_motion
 from pipeline.physics.sliding_motion.sliding_modes import sliding_modes
+from pipeline.physics.time_stepping.element_forces import FRICTION
+from pipeline.physics.time_stepping.elements import Turning, alone
 from pipeline.products import ComplexModes, Effects, Excerpt, FrictionMap, LimitCycle, ReducedModel
 from pipeline.views.pages.sound_file import sound_files
 
@@ -81,8 +82,7 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Every operating point with unstable modes is simulated twice: from a small motion in all of them, whose growth is
     compared with the complex modes, and from half the reach of the contact law to the limit cycle. Effects act as in
-    complex_modes, memory of friction included; laws of contacts and joints of their own are refused unless 'without'
-    names them.
+    complex_modes, memory and laws of contacts and joints included; 'without' leaves some out.
 
     Method:
     The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}
@@ -164,7 +164,7 @@ def _simulate(task, model, friction_map, modes, terms, given, settings):
 
 def _remembers(system):
     """Whether friction of a SlidingMotion remembers."""
-    return system.patches.states.kind.size > 0
+    return len(system.patches.states.kind) + len(system.attached.branch) > 0
 
 
 def _grown(system, settings, duration, starts, settled):
@@ -173,8 +173,9 @@ def _grown(system, settings, duration, starts, settled):
     memory = {"settled": _SMALL * settled.sum(axis=1)} if _remembers(system) else {}
     small = _advanced(system, settings, _SMALL * starts.sum(axis=1), duration, **memory)
     along = small.state @ starts.conj()
-    turned = np.unwrap(np.angle(along), axis=0)
-    return (np.log(abs(along[-1] / along[0])) + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])
+    logarithm = np.log(abs(along)) + 1j * np.unwrap(np.angle(along), axis=0)
+    ahead = small.time - small.time.mean()      # of a line through all: what turns the other way cancels
+    return ahead @ logarithm / (ahead @ ahead)
 
 
 def _advanced(system, settings, start, duration, *options, **others):
@@ -199,27 +200,35 @@ def _system(point, model, friction_map, modes, terms, given, settings):
     linear, pressure = stability_settings(modes), modes.operating_pressure[point]
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, float(modes.operating_speed[point]), linear.damping_speed, terms, given)
-    if case.bench.model.elements:
-        raise ConfigError("limit_cycle", "effects that change friction or linear terms", "one with laws of its own",
-                          "leave it out here, by limit_cycle.without")
+    _refuse_sticking(case.bench.model.elements)
     friction, plain = mapped_friction(friction_map, linear.sliding_distance)
     steady = case.seeking.slide(case.response(linear.centrifugal), pressure * model.input_area, friction, plain, linear)
     about, limit = steady.about(case.bench.model), linear.frequency_max
     beside = steady.beside(about, linear.friction_slopes)
-    remembers = beside is not None
-    if remembers and settings.solver == EXUDYN:
-        raise ConfigError("limit_cycle.solver", f"{COMPILED}, whose steps carry what friction remembers", EXUDYN,
+    remembers, elements = beside is not None, case.bench.model.elements
+    if (remembers or elements) and settings.solver == EXUDYN:
+        raise ConfigError("limit_cycle.solver", f"{COMPILED}, whose steps carry memory and elements of effects", EXUDYN,
                           "leave it out")
     root, reduced = _roots(point, modes, linear)
-    whole = sliding_modes(about, steady.acting(linear.friction_slopes), limit, settings.smallest_correction,
-                          () if remembers else reduced, friction_damping=linear.friction_damping,
-                          gyroscopic=linear.gyroscopic, centrifugal=linear.centrifugal)
+    whole = sliding_modes(
+        about, steady.acting(linear.friction_slopes), limit, settings.smallest_correction, () if remembers else reduced,
+        branch_stiffness(about), steady.friction, friction_damping=linear.friction_damping,
+        gyroscopic=linear.gyroscopic, centrifugal=linear.centrifugal)
     whole = whole if remembers else whole.with_roots(root, reduced)
     unstable = modes.unstable_root[modes.unstable_operating == point]
     system = sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
                             whole.damped_above(limit, settings.damping_above), model.contact_body,
-                            (settings.patch, settings.patches), settings.stick_speed)
+                            (settings.patch, settings.patches), settings.stick_speed, steady.slopes,
+                            steady.rest, linear.friction_damping or any(isinstance(e.law, Turning) for e in elements))
     return system, unstable, _starts(system, unstable, about.mass, beside), about.sensor_rows
+
+
+def _refuse_sticking(elements):
+    """ConfigError for dry friction of joints."""
+    if sticks := [each.name for each in elements if alone((each,)).kind[0] in FRICTION]:
+        raise ConfigError("limit_cycle", "joints that slide or hold all along, from which small motions grow",
+                          f"dry friction of a joint that rests in steady sliding, {', '.join(sticks)}",
+                          "name it in limit_cycle.without, or take it in the stage transient")
 
 
 def _starts(system, unstable, mass, beside):

@@ -27,6 +27,7 @@ from pipeline.physics.sliding.unreduced_equilibrium import sliding_on_elements
 from pipeline.physics.stability.full_roots import sliding_as
 from pipeline.physics.stability.linearisation import (
     beside_motion,
+    element_rows,
     element_slopes,
     friction_about,
     maxwell_branches,
@@ -46,13 +47,15 @@ _STEP = 1e-6
 
 @dataclass(frozen=True)
 class Steady:
-    """Steady sliding: contacts, their damping (c,) N s/m, friction with its states, and slopes (2, e) of elements."""
+    """Steady sliding: contacts, their damping (c,) N s/m, friction with its states, slopes (2, e) of elements, and the
+    elongations (e,) m and the memory (s,), or None, at which they ``rest``."""
 
     contact: Preload
     damping: np.ndarray
     friction: FrictionState
     states: tuple | None = None
     slopes: np.ndarray | None = None
+    rest: tuple | None = None
 
     def about(self, model):
         """A SlidingModel linearised about it: contacts, and elements, whose slopes join the matrices of the bodies."""
@@ -147,7 +150,8 @@ class Posed:
             solution, start = self._anew(friction, input_force, settings)
         states = friction_about(friction, model.sliding_speed, solution.contact.force, model.contacts.area)[1]
         slopes = element_slopes(model, start, model.sliding_speed)[1:]
-        return replace(solution, states=states, slopes=np.array(slopes))
+        rest = element_rows(model) @ start.displacement, start.memory
+        return replace(solution, states=states, slopes=np.array(slopes), rest=rest)
 
     def slide_on_elements(self, full, begin, input_force, plain, settings, solve):
         """(SlidingModel ``full`` of the finite elements behind the model, about it, and its Steady) under

@@ -45,9 +45,10 @@ VALUES = {
 SMALL = {e.name for e in CATALOGUE if e.kind == "physics" and e.small and e.location != ASPERITIES}
 
 
-def acting(name):
-    """The product Effects of one of them, at 0.8 of each condition."""
+def acting(name, **changed):
+    """The product Effects of one of them, some values ``changed``, at 0.8 of each condition."""
     effect, (place, values) = next(e for e in CATALOGUE if e.name == name), VALUES[name]
+    values = {**values, **changed}
     units = {p.name: p.unit for p in effect.parameters(Typical())}
     return Effects(effect=[name], place=[place], term=[0] * len(values), parameter=list(values),
                    value=list(values.values()), unit=[units[p] for p in values], condition=list(effect.conditions),

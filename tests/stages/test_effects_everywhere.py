@@ -1,5 +1,5 @@
-"""Every effect that acts on small motions acts alike in complex modes, in draws, in the whole model of a draw, and in
-the matrices that are exported."""
+"""Every effect that acts on small motions acts alike in complex modes, in draws, in the whole model of a draw, in the
+matrices that are exported, and in the growth from which a limit cycle comes."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,9 @@ from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.draws.whole_roots import whole_roots
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
-from tests.stages.effect_table import FILE, page, reduced, remembers
+from stages.limit_cycle import Settings as Cycle
+from stages.limit_cycle import limit_cycle
+from tests.stages.effect_table import FILE, cycles, page, reduced, remembers
 from tests.stages.effects_on_a_brake import SMALL, VALUES, acting
 from tests.stages.small_structure import small_friction_map
 
@@ -79,3 +81,29 @@ def test_the_middle_of_the_draws_is_what_complex_modes_say(brake, without, name)
     assert np.sum(drawn.value.real > 5) == np.sum(here.real > 5) and drawn.residual.max() < 1.0
     changed = len(grows) != len(without) or bool(abs(grows - without).max() > 1e-7 * abs(without).max())
     assert changed is (name not in UNFELT), "an effect that changes nothing shows nothing"
+
+
+#: short steps, and no more of a motion than its growth asks for
+ONSET = {"duration": "0.3 ms", "window": "0.1 ms", "step": "2.5 us", "patch": 1, "checks": (),
+         "smallest_correction": 1e-3}
+#: values beside which something grows
+SHORTER = {"contact_memory": {"length": 3e-5}}
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("name", sorted(SMALL))
+def test_small_motions_grow_as_complex_modes_say(brake, name):
+    """Growth rates within 5 %, or 1 1/s, frequencies within 0.1 %."""
+    law, effects = small_friction_map(0.6), acting(name, **SHORTER.get(name, {}))
+    modes = complex_modes(brake, law, effects, settings=Modes(
+        friction_steps=2, speeds=(f"{SPEED} rad/s",), frequency_max="8 kHz", friction_damping=False, followed=0))
+    assert len(modes.unstable_root)
+    if not cycles(name):
+        with pytest.raises(ConfigError, match="dry friction of a joint that rests"):
+            limit_cycle(brake, law, modes, effects, settings=Cycle(**ONSET))
+        return
+    found = limit_cycle(brake, law, modes, effects, settings=Cycle(**ONSET))
+    assert len(found.onset_root) == len(modes.unstable_root)
+    np.testing.assert_allclose(found.onset_simulated.imag, found.onset_root.imag, rtol=1e-3)
+    assert (abs(found.onset_simulated.real - found.onset_root.real)
+            < np.maximum(0.05 * found.onset_root.real, 1.0)).all()

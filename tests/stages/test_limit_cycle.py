@@ -138,11 +138,11 @@ def test_without_unstable_modes_nothing_is_simulated(model):
     assert cycle.level.shape[0] == len(cycle.onset_root) == len(cycle.check) == 0
 
 
-def test_effects_with_elements_are_refused(model, modes):
+def test_memory_and_elements_ask_for_compiled_steps(model, modes):
     cubic = Effects(effect=["cubic_stiffness"], place=[str(model.joint_name[0])], term=[0], parameter=["coefficient"],
                     value=[1e15], unit=["N/m^3"], condition=[], condition_value=[])
-    with pytest.raises(ConfigError, match="limit_cycle"):
-        limit_cycle(model, small_friction_map(0.6), modes, cubic, settings=Settings(**SHORT))
+    with pytest.raises(ConfigError, match="limit_cycle.solver"):
+        limit_cycle(model, small_friction_map(0.6), modes, cubic, settings=Settings(**SHORT, solver="exudyn"))
 
 
 def test_windows_fit_into_the_motion():

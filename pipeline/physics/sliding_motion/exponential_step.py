@@ -14,6 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.sliding_motion.attached_elements import beyond_slopes
+from pipeline.physics.sliding_motion.compiled_products import FAST, add_rows, multiply, spread, times
 from pipeline.physics.sliding_motion.patch_forces import beyond_linear, foresee, remember
 
 DONE, UNSETTLED = 0, 1
@@ -29,8 +31,6 @@ STIFF = 0.1
 WORK, LOSS, ADDED, STORED = range(4)
 #: states whose energies are computed together
 _BLOCK = 64
-#: sums may be reordered to use the width of the processor; nothing else is relaxed
-_FAST = {"reassoc", "contract", "nsz"}
 
 
 class StepKernel(NamedTuple):
@@ -92,72 +92,18 @@ def _together(*matrices):
 
 
 @njit
-def _times(factor, values, result):
-    """Add complex ``factor`` (2, m) times ``values`` (2m,) to ``result`` (2m,)."""
-    m = factor.shape[1]
-    for q in range(m):
-        result[q] += factor[0, q] * values[q] - factor[1, q] * values[m + q]
-        result[m + q] += factor[0, q] * values[m + q] + factor[1, q] * values[q]
-
-
-@njit(fastmath=_FAST)
-def multiply(matrix, values, result):
-    """Add ``matrix`` (r, n) times ``values`` (n,) to ``result`` (r,)."""
-    four = matrix.shape[0] - matrix.shape[0] % 4
-    for i in range(0, four, 4):     # four rows at once: as fast as they are read
-        a = b = c = d = 0.0
-        for q in range(values.size):
-            value = values[q]
-            a += matrix[i, q] * value
-            b += matrix[i + 1, q] * value
-            c += matrix[i + 2, q] * value
-            d += matrix[i + 3, q] * value
-        result[i] += a
-        result[i + 1] += b
-        result[i + 2] += c
-        result[i + 3] += d
-    for i in range(four, matrix.shape[0]):
-        total = 0.0
-        for q in range(values.size):
-            total += matrix[i, q] * values[q]
-        result[i] += total
-
-
-@njit
-def spread(matrix, values, result):
-    """Fill ``result`` (n,) with ``values`` (r,) times ``matrix`` (r, n)."""
-    result[:] = 0.0
-    add_rows(matrix, values, np.arange(values.size), result)
-
-
-@njit(fastmath=_FAST)
-def add_rows(matrix, values, which, result):
-    """Add the rows ``which`` of ``matrix`` (r, n), times their ``values`` (r,), to ``result`` (n,)."""
-    four = which.size - which.size % 4
-    for k in range(0, four, 4):
-        a, b, c, d = values[which[k]], values[which[k + 1]], values[which[k + 2]], values[which[k + 3]]
-        first, second, third = matrix[which[k]], matrix[which[k + 1]], matrix[which[k + 2]]
-        fourth = matrix[which[k + 3]]
-        for q in range(result.size):
-            result[q] += a * first[q] + b * second[q] + c * third[q] + d * fourth[q]
-    for k in range(four, which.size):
-        i = which[k]
-        for q in range(result.size):
-            result[q] += values[i] * matrix[i, q]
-
-
-@njit
-def advance(patches, steps, energy, state, past, memory, done, count, every, record, spent):
+def advance(patches, attached, steps, energy, state, past, memory, done, count, every, record, spent):
     """(code, step, sweeps) after the steps ``done`` + 1 to ``count`` from ``state`` (2m,), which ends where they end,
     as do the others.
 
-    ``past`` (DEPTH, 3, p) contact forces beyond the linear ones at the begin and at the steps before it, from which
-    those at the end of a step are extrapolated; ``memory``: states of friction (s, 2), and what they have seen, see
-    ``foresee``; ``spent`` (3,) J: WORK, LOSS, ADDED so far. A step without a solution leaves all as it was
+    Elements stand behind the patches among the p forces. ``past`` (DEPTH, 3, p) forces beyond the linear ones at the
+    begin and at the steps before it, from which those at the end of a step are extrapolated; ``memory``: states of
+    friction (s, 2) and what they have seen, see ``foresee``; what elements remember, their elongations then, and the
+    time (1,) s; ``spent`` (3,) J: WORK, LOSS, ADDED so far. A step without a solution leaves all as it was
     before it.
     """
-    value, heard = memory
-    size, p = state.size, patches.load.size
+    value, heard, held, begun, clock = memory
+    size, p, after = state.size, steps.own.shape[2], held.copy()
     base, reached, ahead, modal = np.empty(size), np.empty(size), np.empty(size), np.empty((DEPTH, size))
     y, trial, reply = np.empty((4, p)), np.empty((3, p)), np.empty((3, p))
     limit, sweeps, best = TOLERANCE * np.sqrt(np.sum(patches.load**2)), 0, 0
@@ -171,26 +117,32 @@ def advance(patches, steps, energy, state, past, memory, done, count, every, rec
         seen[0], work[0] = state, _worked(past[0], y)
     for number in range(done + 1, count + 1):
         base[:] = 0.0
-        _times(steps.decay, state, base)
-        _times(steps.begin, modal[0], base)
+        times(steps.decay, state, base)
+        times(steps.begin, modal[0], base)
         _extrapolate(best, modal, ahead)
         _extrapolate(best, past.reshape(DEPTH, 3 * p), trial.ravel())
         reached[:] = base
-        _times(steps.end, ahead, reached)
+        times(steps.end, ahead, reached)
         y[:] = 0.0
         multiply(steps.motion, reached, y.ravel())
-        foresee(patches, value, heard, steps.step)
-        settled, more = _settle(patches, steps, limit, trial.ravel(), y, reply)
+        if value.size:
+            foresee(patches, value, heard, steps.step)
+        time = clock[0] + steps.step
+        settled, more = _settle(patches, attached, held, begun, time, steps, limit, trial.ravel(), y, reply, after)
         sweeps += more
         if settled:
             best = _nearest(past.reshape(DEPTH, 3 * p), reply.ravel())
             for k in range(DEPTH - 1, 0, -1):
                 past[k], modal[k] = past[k - 1], modal[k - 1]
             past[0] = reply
-            remember(patches, value, heard, y, steps.step)
+            if value.size:
+                remember(patches, value, heard, y, steps.step)
+            held[:], clock[0] = after, time
+            for j in range(begun.size):
+                begun[j] = attached.place[j] + y[0, p - begun.size + j]
             spread(steps.force, reply.ravel(), modal[0])
             state[:] = base
-            _times(steps.end, modal[0], state)
+            times(steps.end, modal[0], state)
             if number % every == 0:
                 record.state[number // every - 1] = state
                 record.share[number // every - 1] = _shares(patches, y)
@@ -215,7 +167,7 @@ def _extrapolate(best, values, result):
             result[q] += _AHEAD[best, k] * values[k, q]
 
 
-@njit(fastmath=_FAST)
+@njit(fastmath=FAST)
 def _nearest(values, came):
     """Row of _AHEAD that extrapolates ``values`` (DEPTH, n) nearest to what ``came`` (n,)."""
     best, least = 0, np.inf
@@ -232,15 +184,18 @@ def _nearest(values, came):
 
 
 @njit
-def _settle(patches, steps, limit, trial, y, reply):
-    """(whether contact forces were found, sweeps): ``reply`` (3, p) to the motion ``y`` (4, p) under the forces
-    ``trial`` (3p,), within ``limit`` N of them; both begin as guesses, and y follows the forces."""
-    p = patches.load.size
+def _settle(patches, attached, held, begun, time, steps, limit, trial, y, reply, after):
+    """(whether forces were found, sweeps): ``reply`` (3, p) to the motion ``y`` (4, p) under the forces ``trial``
+    (3p,), within ``limit`` N of them; both begin as guesses, and y follows the forces. The others as of
+    ``beyond_slopes``."""
+    p = steps.own.shape[2]
     guess, error, change = np.empty(3 * p), np.empty(3 * p), np.empty(3 * p)
     before, moved, slope = np.empty(4 * p), np.empty(4 * p), np.zeros((3, 4, p))
     last, length = np.inf, 1.0
     for sweep in range(1, SWEEPS + 1):
         beyond_linear(patches, y, reply, slope)
+        if begun.size:
+            beyond_slopes(attached, held, begun, time, y, reply, slope, after)
         error[:] = reply.ravel() - trial
         miss = np.sqrt(np.sum(error * error))
         if miss <= limit:
@@ -265,7 +220,7 @@ def modal_rate(patches, motion, force, root, state, result):
     multiply(motion, state, y.ravel())
     beyond_linear(patches, y, rest, np.empty((3, 4, p)))
     spread(force, rest.ravel(), result)
-    _times(root, state, result)
+    times(root, state, result)
 
 
 @njit
@@ -323,7 +278,7 @@ def _newton(response, own, slope, error, limit, change, moved):
     add_rows(response, change, rows, moved)
 
 
-@njit(fastmath=_FAST)
+@njit(fastmath=FAST)
 def _follow(own, slope, error, change):
     """(p,) largest change of a force of each patch with its own forces; fills ``change`` (3, p) with the ``error``
     (3, p) and what it does to them itself."""

@@ -18,6 +18,7 @@ from pipeline.physics.friction.dry_friction import FACTOR, READ_AT, at_one_dista
 from pipeline.physics.friction.state_kernels import MEMORY, SETTLING, StateKernel
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.sliding_motion.attached_elements import AttachedKernel, attached, beyond_slopes
 from pipeline.physics.sliding_motion.exponential_step import (
     ADDED,
     DEPTH,
@@ -33,6 +34,7 @@ from pipeline.physics.sliding_motion.exponential_step import (
 )
 from pipeline.physics.sliding_motion.patch_forces import PatchKernel, beyond_linear, foresee
 from pipeline.physics.sliding_motion.patches import contact_patches
+from pipeline.physics.stability.linearisation import element_rows
 from pipeline.physics.time_stepping.normal_laws import normal_kernel
 
 #: rows of the tables of normal force on either side of steady sliding, and the share of the law that they span at least
@@ -71,12 +73,14 @@ class Run:
 @dataclass(frozen=True)
 class SlidingMotion:
     """A sliding system about steady sliding: its SlidingModes and PatchKernel, which entries of a Settling of its
-    contacts the states (s, 2) of friction are, rows of the patches (4p, 2m) and modal forces (3p, 2m) as in a
-    StepKernel, and the forms of its energy."""
+    contacts the states (s, 2) of friction are, its AttachedKernel and what elements have ``held`` (h,), rows of patches
+    and elements (4p, 2m) and modal forces (3p, 2m) as in a StepKernel, and the forms of its energy."""
 
     modes: object
     patches: PatchKernel
     settling: np.ndarray
+    attached: AttachedKernel
+    held: np.ndarray
     motion: np.ndarray
     force: np.ndarray
     energy: EnergyKernel
@@ -111,8 +115,8 @@ class SlidingMotion:
         """Sweeps of all steps; a step that has no solution is taken in finer ones."""
         done, sweeps, spent, none = 0, 0, np.zeros(3), Record(*np.empty((2, 0, 0)), np.empty((0, 4)))
         while done < count:
-            code, number, more = advance(self.patches, self._kernel(step), energy, *motion[:2], motion[2:], done, count,
-                                         every, record, spent)
+            code, number, more = advance(self.patches, self.attached, self._kernel(step), energy, *motion[:2],
+                                         motion[2:], done, count, every, record, spent)
             done, sweeps = number, sweeps + more
             parts, before = 1, tuple(each.copy() for each in (*motion, spent))
             while code != DONE:
@@ -123,8 +127,8 @@ class SlidingMotion:
                     raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
                                            "none after the last iteration", "lower limit_cycle.patch"
                                            " or limit_cycle.step, or raise limit_cycle.stick_speed")
-                code, _, more = advance(self.patches, self._kernel(step / parts), energy, *motion[:2], motion[2:], 0,
-                                        parts, parts + 1, none, spent)
+                code, _, more = advance(self.patches, self.attached, self._kernel(step / parts), energy, *motion[:2],
+                                        motion[2:], 0, parts, parts + 1, none, spent)
                 sweeps += more
         return sweeps
 
@@ -139,17 +143,22 @@ class SlidingMotion:
         return {}
 
     def _begin(self, start, settled=None):
-        """(state, contact forces beyond the linear ones, as if they had always been, states of friction as in steady
-        sliding, and what they have seen) at modal coordinates (m,)."""
-        patches, p = self.patches, len(self.patches.load)
+        """(state, forces beyond the linear ones, as if they had always been, and what is remembered, see ``advance``)
+        at modal coordinates (m,), as in steady sliding."""
+        patches, attached, p = self.patches, self.attached, len(self.force) // 3
         state, rest = np.concatenate((start.real, start.imag)), np.zeros((3, p))
         value = started(patches.states, patches.load, patches.speed)
+        held = self.held.copy()
         if settled is not None:
             value += np.where(self.settling < 0, 0.0, settled[self.settling])
+            held[attached.branch] += settled[len(settled) - len(attached.branch):]
         seen = np.array([[patches.load, abs(patches.speed), abs(patches.drawn)]] * 2)
         foresee(patches, value, seen, 0.0)
-        beyond_linear(patches, (self.motion @ state).reshape(4, -1), rest, np.zeros((3, 4, p)))
-        return state, np.array([rest] * DEPTH), value, seen
+        y, slope = (self.motion @ state).reshape(4, -1), np.zeros((3, 4, p))
+        beyond_linear(patches, y, rest, slope)
+        beyond_slopes(attached, held, attached.place, 0.0, y, rest, slope, held.copy())
+        begun = attached.place + y[0, len(patches.load):]
+        return state, np.array([rest] * DEPTH), value, seen, held, begun, np.zeros(1)
 
     def rate(self, start):
         """dz/dt (m,) at modal coordinates (m,): for other integrators and for tests."""
@@ -178,21 +187,26 @@ class SlidingMotion:
         return np.array([abs(self.reaching(each)).max() for each in np.eye(len(self.modes.root), dtype=complex)])
 
 
-def sliding_motion(model, closure, friction, law, modes, group, size, stick_speed):
+def sliding_motion(model, closure, friction, law, modes, group, size, stick_speed, slopes=None, rest=None,
+                   turns=True):
     """SlidingMotion of a SlidingModel linearised about its contacts.
 
     ``closure`` (c,) m in steady sliding; ``friction``: Friction of the contacts, whose states settle; ``law``: Table;
     ``modes``: SlidingModes; ``group`` (c,) number of the face of each contact, ``size`` (contacts in a patch at
-    most, patches of a face at most): see ``contact_patches``; ``stick_speed`` m/s.
+    most, patches of a face at most): see ``contact_patches``; ``stick_speed`` m/s; ``slopes`` (2, e) of the elements of
+    the model, and their elongations (e,) m and memory (s,), or None, at ``rest``; both None without any. ``turns``:
+    whether friction turns with the slip, as by an element for it.
     """
     contacts = model.contacts
     patches = contact_patches(contacts.position, contacts.stiffness, group, *size)
-    rows = np.vstack([patches.mean @ (each @ modes.basis)
-                      for each in (contacts.normal, contacts.tangent, contacts.lateral)])
+    springs, (place, memory) = element_rows(model), ((), None) if rest is None else rest
+    elements = attached(model.elements, place, np.zeros((2, 0)) if slopes is None else slopes, memory, model.speed)
+    rows = np.vstack([np.vstack((patches.mean @ each, own)) @ modes.basis for each, own in (
+        (contacts.normal, springs), (contacts.tangent, 0 * springs), (contacts.lateral, 0 * springs))])
     position, force = modes.weight * (rows @ modes.right), rows @ modes.left
-    p = len(patches.first) - 1
+    p = len(rows) // 3
     return SlidingMotion(
-        modes, *_patch_kernel(model, closure, friction, law, patches, stick_speed),
+        modes, *_patch_kernel(model, closure, friction, law, patches, stick_speed, turns), *elements,
         np.ascontiguousarray(_real(np.vstack((position[:p], position * modes.own)))),
         np.ascontiguousarray(np.hstack((force.real, force.imag))), _energy(model, modes))
 
@@ -202,7 +216,7 @@ def _real(rows):
     return np.hstack((rows.real, -rows.imag))
 
 
-def _patch_kernel(model, closure, friction, law, patches, stick_speed):
+def _patch_kernel(model, closure, friction, law, patches, stick_speed, turns):
     contacts = model.contacts
     normal, dry = normal_kernel(law, contacts), kernel(friction, len(contacts.area))
     lowest, interval, force, closed = _normal_tables(normal, closure, patches)
@@ -221,10 +235,11 @@ def _patch_kernel(model, closure, friction, law, patches, stick_speed):
     at_once[states.contact[states.kind == MEMORY]] = 0.0
     coupling = at_once * np.sign(speed) * FrictionState(mu, over_pressure).load_slope(load * per_load)
     linear = np.array([stiffness, damping, coupling * stiffness, coupling * damping, at_once * load * over_slip,
-                       np.divide(mu * load, abs(speed), out=np.zeros(len(load)), where=speed != 0)])
+                       turns * np.divide(mu * load, abs(speed), out=np.zeros(len(load)), where=speed != 0)])
     return PatchKernel(
         lowest, interval, force, closed, len(closure), normal.damping_speed[first], load, np.sign(speed) * mu * load,
-        speed, per_load, dry, states, linear, float(stick_speed), float(load.sum() / stiffness.sum())), settling
+        speed, per_load, dry, states, linear, float(stick_speed), float(turns),
+        float(load.sum() / stiffness.sum())), settling
 
 
 def _states(friction, count, first, area):

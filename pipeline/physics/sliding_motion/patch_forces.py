@@ -5,9 +5,9 @@ rows. Its contacts j carry
 
     N = (1 - u' / vd) sum_j A_j p_j(c_j - u),      F = N mu(p, |s|) g(|s|) s / |s|,      s = (v0 - v, -w),
 
-p being the mean pressure of its closed contacts and g = 1 except for sticking, which is creep slower than
-``stick_speed``. The sum is a table over u, finer than the law grows by more than a few per mille in a row. Friction
-that remembers hears of N and s what its states leave of them (``friction.state_kernels``).
+w counting only where friction turns, p being the mean pressure of its closed contacts and g = 1 except for sticking,
+which is creep slower than ``stick_speed``. The sum is a table over u, finer than the law grows by more than a few per
+mille in a row. Friction that remembers hears of N and s what its states leave of them (``friction.state_kernels``).
 """
 
 from typing import NamedTuple
@@ -45,6 +45,7 @@ class PatchKernel(NamedTuple):
     states: StateKernel     # what their friction remembers
     linear: np.ndarray      # (6, p) slopes: see ``linear_forces``
     stick_speed: float      # m/s
+    turns: float            # 1 where friction turns with the slip, 0 where it stays along the tangents
     scale: float            # m, closure in which the law grows by e
 
 
@@ -97,7 +98,7 @@ def remember(k, value, seen, y, step):
         seen[1] = seen[0]
         for i in range(k.load.size):
             load = normal_at(k, i, y[0, i], y[1, i])[0]
-            along, aside = k.speed[i] - y[2, i], -y[3, i]
+            along, aside = k.speed[i] - y[2, i], -k.turns * y[3, i]
             force = patch_friction(k.friction, i, load, k.pressure_per_load[i], along, aside, k.stick_speed)
             seen[0, :, i] = load, np.sqrt(along * along + aside * aside), np.sqrt(force.x**2 + force.y**2)
         settle(k.states, value, seen[1, 0], seen[0, 0], seen[1, 1], seen[0, 1], 0.5 * (seen[0, 2] + seen[1, 2]), step)
@@ -115,16 +116,16 @@ def linear_forces(k, i, y):
 def beyond_linear(k, y, rest, slope):
     """Fill ``rest`` (3, p) with what the forces at ``y`` (4, p) hold beyond steady and linear ones, and ``slope``
     (3, 4, p) with its derivatives."""
-    a, friction, speed, per_load = k.linear, k.friction, k.speed, k.pressure_per_load      # one reference each
+    a, friction, speed, per_load, turns = k.linear, k.friction, k.speed, k.pressure_per_load, k.turns   # once each
     for i in range(k.load.size):
         normal, rise, drag = normal_at(k, i, y[0, i], y[1, i])
-        force = patch_friction(friction, i, normal, per_load[i], speed[i] - y[2, i], -y[3, i], k.stick_speed)
+        force = patch_friction(friction, i, normal, per_load[i], speed[i] - y[2, i], -turns * y[3, i], k.stick_speed)
         linear = linear_forces(k, i, y)
         rest[0, i] = normal - k.load[i] - linear[0]
         rest[1, i] = force.x - k.drawn[i] - linear[1]
         rest[2, i] = force.y - linear[2]
         slope[0, 0, i], slope[0, 1, i] = rise + a[0, i], drag + a[1, i]
         slope[1, 0, i], slope[1, 1, i] = force.x_by_normal * rise + a[2, i], force.x_by_normal * drag + a[3, i]
-        slope[1, 2, i], slope[1, 3, i] = a[4, i] - force.xx, -force.xy
+        slope[1, 2, i], slope[1, 3, i] = a[4, i] - force.xx, -turns * force.xy
         slope[2, 0, i], slope[2, 1, i] = force.y_by_normal * rise, force.y_by_normal * drag
-        slope[2, 2, i], slope[2, 3, i] = -force.xy, a[5, i] - force.yy
+        slope[2, 2, i], slope[2, 3, i] = -force.xy, a[5, i] - turns * force.yy

@@ -108,16 +108,19 @@ class SlidingModes:
         return replace(self, root=np.where(low, damped, self.root))
 
 
-def sliding_modes(model, friction, below, smallest=1e-3, roots=(), **terms):
+def sliding_modes(model, friction, below, smallest=1e-3, roots=(), others=None, felt=None, **terms):
     """SlidingModes of a SlidingModel linearised about its contacts, on real modes below a frequency [Hz] and their
     corrections.
 
     ``friction``: FrictionState; ``smallest``: corrections with smaller amplitudes are left out; ``roots`` (b,) 1/s of
     positive frequency, roughly: where the basis does not reach one of them, the shapes of that mode in the whole model
-    join it; ``terms``: ``friction_damping``, ``gyroscopic`` and ``centrifugal`` as of ``SlidingModel.linearised``.
+    join it; ``others``: stiffness (n, n) N/m that acts besides, see ``friction_basis``; ``felt``: FrictionState with
+    what it remembers, where that is another; ``terms``: ``friction_damping``, ``gyroscopic`` and ``centrifugal`` as of
+    ``SlidingModel.linearised``.
     """
-    basis = friction_basis(model, below, terms.get("friction_damping", True), smallest, adjoint=friction,
-                           centrifugal=terms.get("centrifugal", True)).shape
+    basis = friction_basis(model, below, terms.get("friction_damping", True), smallest,
+                           adjoint=friction if felt is None else felt,
+                           centrifugal=terms.get("centrifugal", True), others=others).shape
     matrices = model.linearised(friction, **terms)
     modes = _modes_on(basis, matrices)
     lost = modes.without(np.asarray(roots, complex))
