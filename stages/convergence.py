@@ -9,13 +9,12 @@ from typing import Literal
 import numpy as np
 
 from pipeline.case_models.effect_block import physics_terms
-from pipeline.case_models.operating_points import middle_speed
+from pipeline.case_models.operating_points import StabilitySettings, middle_speed
 from pipeline.case_models.refinement.comparison import Comparison, Stated, Tolerances, causes, error_factor
 from pipeline.case_models.refinement.element_modes import OperatingPoint, brake_of, element_modes
 from pipeline.case_models.refinement.finer_settings import BASES, REFINEMENTS, finer, left_out, refined
 from pipeline.case_models.refinement.reduced_starts import Starts, reduced_starts
 from pipeline.case_models.refinement.unreduced_brake import BodyMatrices, freedoms
-from pipeline.case_models.scatter import stability_settings
 from pipeline.contract import ConfigError, Context, Quantity, Section, Sections, option, stage
 from pipeline.products import ComplexModes, Convergence, Effects, FrictionMap, ReducedModel
 
@@ -71,7 +70,7 @@ def convergence(modes: ComplexModes, model: ReducedModel, friction_map: Friction
     """
     pressure, speed = operating_point(settings, modes.operating_pressure, modes.operating_speed)
     here = _nearest(modes, pressure, speed)
-    linear, point = stability_settings(modes), (float(modes.operating_pressure[here]),
+    linear, point = StabilitySettings.of(modes), (float(modes.operating_pressure[here]),
                                                 float(modes.operating_speed[here]))
     state = int(np.argmin(abs(model.pressure - point[0])))
     starts = reduced_starts(model, friction_map, modes.operating_root[here], state, point[1], linear)

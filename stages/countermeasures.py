@@ -28,7 +28,7 @@ from pipeline.case_models.countermeasures.nearby_modes import Brake
 from pipeline.case_models.countermeasures.squeal_rates import changes_in_bands, changes_of_rates, paired
 from pipeline.case_models.countermeasures.table import csv_table
 from pipeline.case_models.design_search.best import check_beside, searched
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.contract import Context, Section, Variants, option, stage
 from pipeline.products import (
     ComplexModes,
@@ -100,7 +100,7 @@ def countermeasures(modes: ComplexModes, model: ReducedModel, friction_map: Fric
     base, names = Brake(modes, model, friction_map, effects), list(varied_modes)
     others = [Brake(varied_modes[n], varied_models[n], varied_maps.get(n), varied_effects[n]) for n in names]
     tasks = [(other, operating) for other in others for operating in range(len(modes.operating_speed))]
-    compare = partial(_compared, base, convergence, stability_settings(modes).neutral)
+    compare = partial(_compared, base, convergence, StabilitySettings.of(modes).neutral)
     rows, points = context.map(compare, tasks, "operating points"), len(modes.operating_speed)
     found = [sum(rows[k:k + points], []) for k in range(0, len(rows), points)]
     known = {**settings.variants, **searched(search)}

@@ -11,9 +11,8 @@ from typing import Literal
 import numpy as np
 
 from pipeline.case_models.effect_block import conditions, physics_terms
-from pipeline.case_models.operating_points import Speeds, selected_speeds
+from pipeline.case_models.operating_points import Speeds, StabilitySettings, selected_speeds
 from pipeline.case_models.pads import kept
-from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import branch_stiffness, mapped_friction, posed
 from pipeline.case_models.unstable_roots import nearly
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
@@ -197,7 +196,7 @@ def _system(point, model, friction_map, modes, terms, given, settings):
     Its roots are those of complex modes; where friction remembers, they are those without what it remembers, which acts
     beside them.
     """
-    linear, pressure = stability_settings(modes), modes.operating_pressure[point]
+    linear, pressure = StabilitySettings.of(modes), modes.operating_pressure[point]
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, float(modes.operating_speed[point]), linear.damping_speed, terms, given)
     _refuse_sticking(case.bench.model.elements)

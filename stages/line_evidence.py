@@ -8,7 +8,8 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models.scatter import DEFAULT, Source, family, fitting, friction_errors, stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
+from pipeline.case_models.scatter import DEFAULT, Source, family, fitting, friction_errors
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.diagnosis.published.completed_case import chosen, companions
 from pipeline.diagnosis.published.line_hypotheses import (
@@ -117,7 +118,7 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     by bootstrap over the draws; lists simulated by one half of the draws and weighed by the other calibrate it.
     """
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     if settings.high > points.frequency_max:
         raise ConfigError("line_evidence.high", f"at most {points.frequency_max:g} Hz, where the complex modes end",
                           f"{settings.high:g} Hz", "raise complex_modes.frequency_max")

@@ -5,8 +5,8 @@ Draws are made before the fan-out, so that the number of workers changes no bit.
 
 import csv
 import io
+from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from pipeline.case_models.noise_matrix.predicted import described, outside, pred
 from pipeline.case_models.noise_matrix.recorded_stops import recorded_stops
 from pipeline.case_models.noise_matrix.sampling import Bands, Draws, solved
 from pipeline.case_models.noise_matrix.schedule import Module, NamedSchedule, schedule
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.scatter import (
     DEFAULT,
     KINDS,
@@ -23,7 +24,6 @@ from pipeline.case_models.scatter import (
     fitting,
     friction_errors,
     law_in_words,
-    stability_settings,
 )
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.diagnosis import noise_matrix_case
@@ -125,7 +125,7 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
     brake of this scatter, two-sided, with Holm's correction over all conditions and bands (level {level}).
     """
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     acts = friction_map is not None and "bodies" in friction_map.over_temperature
     plan = schedule(settings.schedule, settings.modules, acts)
     high = min(settings.highest_frequency, points.frequency_max)
@@ -148,7 +148,7 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
 
 def _family(points, effects, model, state, friction_map, direction):
     """Family of one preload, with the effects of the case as they are when it slides in a ``direction``, 1 or -1."""
-    turning = SimpleNamespace(**{**vars(points), "speeds": direction * np.abs(points.speeds)})
+    turning = replace(points, speeds=tuple(direction * np.abs(points.speeds)))
     return family(model, state, friction_map, turning, effects)
 
 

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models.operating_points import Speeds, selected_speeds
+from pipeline.case_models.operating_points import Speeds, StabilitySettings, selected_speeds
 from pipeline.case_models.scatter import (
     ADDITIONS,
     DEFAULT,
@@ -24,7 +24,6 @@ from pipeline.case_models.scatter import (
     friction_errors,
     law_in_words,
     scored_values,
-    stability_settings,
     standard_deviation,
 )
 from pipeline.contract import Context, ConvergenceError, Quantity, Section, option, stage
@@ -93,8 +92,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap | None, modes: Co
     Sensitivities are first-order Sobol indices of the largest growth rate.
     """
     settings = settings.model_copy(update={"sources": fitting(settings.sources, model)})
-    points = stability_settings(modes)
-    points.speeds = selected_speeds(settings.speeds, points.speeds)
+    points = StabilitySettings.of(modes)
+    points = replace(points, speeds=tuple(selected_speeds(settings.speeds, points.speeds)))
     errors = friction_errors(friction_map, points.sliding_distance)
     scores = even_scores(settings.draws, len(settings.sources), settings.seed)
     values = scored_values(settings.sources, errors, scores)

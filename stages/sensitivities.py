@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity import differences as again
 from pipeline.case_models.sensitivity import remedies
 from pipeline.case_models.sensitivity.derivatives import LEFT_OUT, derivatives, scatter_of
@@ -51,7 +51,7 @@ def sensitivities(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     the case declares it or {unstated_scatter} of the value. Up to {remedies} values were changed until the strongest
     mode no longer grows in the reduced model.
     """
-    points, chosen = stability_settings(modes), _chosen(modes, settings.modes)
+    points, chosen = StabilitySettings.of(modes), _chosen(modes, settings.modes)
     where = modes.unstable_operating[chosen]
     tasks = [(operating, chosen[where == operating]) for operating in dict.fromkeys(where.tolist())]
     given = (model, effects), structure, friction_map, modes, points

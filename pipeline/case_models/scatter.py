@@ -7,10 +7,8 @@
         - {kind: friction}                        # standard error of the friction map
 """
 
-import json
 from dataclasses import dataclass, field, replace
 from functools import partial
-from types import SimpleNamespace
 from typing import Literal
 
 import numpy as np
@@ -202,14 +200,9 @@ def friction_errors(friction_map, distance):
     return FrictionErrors(std, friction_map.error_correlation[at])
 
 
-def stability_settings(modes):
-    """The section complex_modes that a product ComplexModes was computed with, in SI units."""
-    return SimpleNamespace(**json.loads(str(modes.settings)))
-
-
 def family(model, state, friction_map, settings, effects=None):
     """Family of the products ReducedModel, at one row of its preload, FrictionMap, or None where friction is that of
-    the ``settings``, as of ``stability_settings``, and Effects, or None.
+    the ``settings``, a StabilitySettings, and Effects, or None.
 
     ConfigError for unknown locations of effects, and for friction that turns with the slip twice.
     """

@@ -8,16 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.case_models.operating_points import middle_speed
-from pipeline.case_models.scatter import (
-    DEFAULT,
-    Source,
-    draw_values,
-    factors_of,
-    family,
-    friction_errors,
-    stability_settings,
-)
+from pipeline.case_models.operating_points import StabilitySettings, middle_speed
+from pipeline.case_models.scatter import DEFAULT, Source, draw_values, factors_of, family, friction_errors
 from pipeline.case_models.steady_sliding import mapped_friction, posed
 from pipeline.contract import store
 from pipeline.contract.settings import fill
@@ -55,7 +47,7 @@ def brake(small):
 
 def at_highest_load(model, modes):
     """(Posed at the highest pressure and the middle speed, input force (i,) N, section complex_modes)."""
-    settings, state = stability_settings(modes), int(np.argmax(model.pressure))
+    settings, state = StabilitySettings.of(modes), int(np.argmax(model.pressure))
     case = posed(model, state, middle_speed(settings.speeds), settings.damping_speed)
     return case, model.pressure[state] * model.input_area, settings
 
@@ -118,7 +110,7 @@ def friction_sweep(points=2, small=False):
 def draws_of_probability(draws=4, small=False):
     """draws at one point (goal 7.5: 500 at 9 in 5 min, 2 cores)"""
     model, law, modes = brake(small)
-    points, random = stability_settings(modes), np.random.default_rng(11)
+    points, random = StabilitySettings.of(modes), np.random.default_rng(11)
     sources = [s for s in (fill(Source, given, "source") for given in DEFAULT) if _there(s, model)]
     errors = friction_errors(law, points.sliding_distance)
     drawn = [factors_of(sources, row, model) for row in draw_values(sources, errors, draws + 2, random)]

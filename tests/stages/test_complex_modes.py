@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.contract.settings import restored
 from pipeline.physics.friction.dry_friction import Friction
@@ -390,7 +390,7 @@ def test_paths_end_in_their_modes_and_cross_zero_at_the_critical_friction(growin
 def test_the_product_says_how_its_roots_were_made(growing):
     _, settings, modes = growing
     assert restored(Settings, str(modes.settings)) == settings
-    stated = stability_settings(modes)
+    stated = StabilitySettings.of(modes)
     assert stated.damping_speed == 1.0 and stated.frequency_max == 8000.0 and stated.sliding_distance == 0.01
     assert [stated.friction_slopes, stated.friction_damping, stated.gyroscopic] == [True, False, True]
 

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from pipeline.case_models.matrices.sliding_terms import sliding_state, terms_of
-from pipeline.case_models.scatter import family, stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
+from pipeline.case_models.scatter import family
 from pipeline.contract import ConfigError
 from pipeline.physics.modal.quadratic_eigenproblem import polished
 from pipeline.physics.stability.draws.sampled_roots import sampled
@@ -67,7 +68,7 @@ def test_the_table_of_the_documents_is_that_of_the_catalogue():
 def test_the_middle_of_the_draws_is_what_complex_modes_say(brake, without, name):
     effects = acting(name)
     modes = modes_of(brake, effects)        # one speed: operating points are pressures
-    points, grows = stability_settings(modes), modes.unstable_reduced
+    points, grows = StabilitySettings.of(modes), modes.unstable_reduced
     state = len(brake.pressure) - 1
     made = family(brake, state, LAW, points, effects)
     drawn = sampled(made, points.speeds, points.frequency_max).modes(NOMINAL, SPEED)

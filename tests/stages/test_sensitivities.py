@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity.matrices import Case, polished_root, system_of, without_surface
 from pipeline.case_models.sensitivity.parameters import parameters
 from pipeline.contract import store
@@ -153,7 +153,7 @@ def test_thirty_values_of_the_quick_brake_within_five_percent_of_differences(tmp
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("10 rad/s",), frequency_max="6 kHz",
                                                      followed=0))
     found = sensitivities(model, law, modes, structure, None, varied={}, settings=Settings(modes=2, remedies=0))
-    points, checked = stability_settings(modes), 0
+    points, checked = StabilitySettings.of(modes), 0
     assert len(found.mode) == 2
     for k in range(2):
         state = int(modes.unstable_operating[found.mode[k]])

@@ -14,17 +14,8 @@ from multiprocessing import get_context
 import numpy as np
 import scipy
 
-from pipeline.case_models.operating_points import middle_speed
-from pipeline.case_models.scatter import (
-    DEFAULT,
-    Source,
-    draw_values,
-    factors_of,
-    family,
-    fitting,
-    friction_errors,
-    stability_settings,
-)
+from pipeline.case_models.operating_points import StabilitySettings, middle_speed
+from pipeline.case_models.scatter import DEFAULT, Source, draw_values, factors_of, family, fitting, friction_errors
 from pipeline.contract.settings import fill
 from pipeline.environment import ONE_THREAD
 from pipeline.physics.stability.draws.draw_statistics import rate_interval
@@ -60,7 +51,7 @@ class Beside:
 def cases(draws, seed, small=False):
     """([Sampled of each pressure], [Factors of each draw], speed rad/s, least growth as a share of the frequency)."""
     model, law, modes = brake(small)
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     sources = fitting([fill(Source, given, "source") for given in DEFAULT], model)
     errors = friction_errors(law, points.sliding_distance)
     drawn = [factors_of(sources, row, model)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.case_models.effect_block import conditions, physics_terms
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.steady_sliding import Posed, Steady, posed, sliding_friction
 from pipeline.contract import ConfigError, ProductError
 from pipeline.physics.sliding.model import SlidingModel, at_state
@@ -71,7 +71,7 @@ class SlidingState:
 def sliding_at(modes, model, friction_map, effects, operating):
     """SlidingState of the products ComplexModes, ReducedModel, FrictionMap or None, Effects or None, at an operating
     point, an index of the first."""
-    settings = stability_settings(modes)
+    settings = StabilitySettings.of(modes)
     pressure, speed = modes.operating_pressure[operating], float(modes.operating_speed[operating])
     state = int(np.argmin(abs(model.pressure - pressure)))
     case = posed(model, state, speed, settings.damping_speed, physics_terms(effects), conditions(effects))

@@ -28,7 +28,7 @@ class Case:
 
 
 def varied(case, friction_map, points, friction=None):
-    """Family of a Case; ``points``: settings of its stability as of ``stability_settings``; ``friction``: a law of
+    """Family of a Case; ``points``: settings of its stability a StabilitySettings; ``friction``: a law of
     pressure and speed in place of that of the map or the settings, effects included."""
     made = family(case.model, case.state, friction_map, points, case.effects)
     if friction is not None:

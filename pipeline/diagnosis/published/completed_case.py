@@ -9,6 +9,7 @@ import copy
 
 import numpy as np
 
+from pipeline.case_models.operating_points import DECAY_SPEED
 from pipeline.contract import documents as yaml
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.published.line_hypotheses import FALLING, FLEXIBLE, LOADING
@@ -98,7 +99,7 @@ class _Writer:
                   if "lever" in c]
         sliding = abs(speed) * float(np.mean(levers or [1.0]))
         last, rest = (float(_plain(modes.get(key) or modes["friction"])) for key in ("friction", "friction_at_rest"))
-        decay = to_si(_plain(modes.get("decay_speed", "10 mm/s")), "m/s", "complex_modes.decay_speed")
+        decay = to_si(_plain(modes.get("decay_speed", DECAY_SPEED)), "m/s", "complex_modes.decay_speed")
         more = (rest - last) * np.exp(-sliding / decay)
         coefficient = last + more + level + slope * np.log(sliding)
         slope = slope - more * sliding / decay

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity.derivatives import derivatives, scatter_of
 from pipeline.case_models.sensitivity.matrices import Case, without_surface
 from tests.case_models.sensitivity.curved_brake import curved_brake
@@ -30,7 +30,7 @@ def test_nothing_is_declared_without_a_probability():
 
 def test_of_fine_tables_both_reaches_say_the_same():
     structure, model, law, modes = curved_brake()
-    points, operating = stability_settings(modes), int(modes.unstable_operating[0])
+    points, operating = StabilitySettings.of(modes), int(modes.unstable_operating[0])
     state, speed = divmod(operating, len(points.speeds))
     found = derivatives(Case(without_surface(model), state, points.speeds[speed]), modes.unstable_reduced[:1],
                         structure, 0.6, law, points)

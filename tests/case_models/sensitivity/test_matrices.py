@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity.matrices import Case, mean_friction, system_of
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
@@ -16,7 +16,7 @@ def test_roots_of_complex_modes_are_those_of_the_matrices():
     model, law = reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz")), small_friction_map(0.6)
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("12 rad/s",), frequency_max="8 kHz",
                                                      followed=0))
-    points, root = stability_settings(modes), modes.unstable_reduced[0]
+    points, root = StabilitySettings.of(modes), modes.unstable_reduced[0]
     case = Case(model, int(modes.unstable_operating[0]), 12.0)
     mass, damping, stiffness = system_of(case, law, points).matrices()
     size = np.linalg.svd(root**2 * mass + root * damping + stiffness, compute_uv=False)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity.matrices import Case, mean_friction, polished_root, system_of
 from pipeline.case_models.sensitivity.parameters import parameters
 from pipeline.physics.sliding.model import lining_part
@@ -24,7 +24,7 @@ def test_every_value_within_five_percent_of_differences():
     model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s", "12 rad/s"),
                                                      frequency_max="8 kHz", followed=0))
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     for start, operating in zip(modes.unstable_reduced[:2], modes.unstable_operating[:2], strict=True):
         state, speed = divmod(int(operating), len(points.speeds))
         case = Case(model, state, points.speeds[speed])
@@ -55,7 +55,7 @@ def test_pressure_acts_through_linings_that_it_stiffens():
     model = replace(model, lining_coordinate=lined, lining_stiffness=0.5 * model.stiffness[np.ix_(lined, lined)])
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz",
                                                      followed=0))
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     state = int(modes.unstable_operating[0])
     changes = []
     for exponent in (0.0, 0.5):

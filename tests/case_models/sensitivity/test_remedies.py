@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity.derivatives import derivatives
 from pipeline.case_models.sensitivity.matrices import Case, polished_root, system_of, without_surface
 from pipeline.case_models.sensitivity.parameters import parameters
@@ -30,7 +30,7 @@ def test_those_that_need_the_smallest_part_of_what_they_can_be_changed_by_come_f
 
 def test_the_mode_no_longer_grows_with_the_value_that_is_found():
     structure, model, law, modes = curved_brake()
-    points, operating = stability_settings(modes), int(modes.unstable_operating[0])
+    points, operating = StabilitySettings.of(modes), int(modes.unstable_operating[0])
     state, speed = divmod(operating, len(points.speeds))
     case = Case(without_surface(model), state, points.speeds[speed])
     found = derivatives(case, modes.unstable_reduced[:1], structure, 0.6, law, points)

@@ -1,12 +1,12 @@
 """First-order changes of roots beside differences of the roots of the whole model, with and without effects."""
 
+from dataclasses import replace
 from functools import reduce
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
 from pipeline.case_models.sensitivity.matrices import Case, mean_friction, polished_root, system_of, without_surface
 from pipeline.case_models.sensitivity.parameters import parameters
 from pipeline.case_models.sensitivity.root_changes import followed_roots
@@ -29,7 +29,7 @@ def plain():
 def of_brake(brake, added=None):
     """(Case, with an effect by name, its roots, Structure, FrictionMap, settings) at one operating point."""
     structure, model, law, modes = brake
-    points, operating = stability_settings(modes), int(modes.unstable_operating[0])
+    points, operating = StabilitySettings.of(modes), int(modes.unstable_operating[0])
     roots = modes.unstable_reduced[modes.unstable_operating == operating][:2]
     state, speed = divmod(operating, len(points.speeds))
     case = Case(without_surface(model), state, points.speeds[speed], effects=added and acting(added))
@@ -64,7 +64,7 @@ def test_so_they_are_with_every_effect(plain, name):
     """Friction, contacts, load, speed, joints and bodies together; differences of roots are 0.08 1/s uncertain, as the
     tables have steps."""
     case, roots, structure, law, points = of_brake(plain, name)
-    points = SimpleNamespace(**{**vars(points), "friction_damping": False})       # which effects may bring
+    points = replace(points, friction_damping=False)       # which effects may bring
     system = system_of(case, law, points)
     roots = [polished_root(system, roots[0]).root]
     values = {v.name: v for v in parameters(case, structure, mean_friction(case, law, points), points)}

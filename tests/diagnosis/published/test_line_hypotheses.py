@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import FrictionErrors, Source, family, stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
+from pipeline.case_models.scatter import FrictionErrors, Source, family
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.published.line_hypotheses import (
     FALLING,
@@ -122,7 +123,7 @@ def test_a_tone_is_unheard_with_the_stated_probability():
 
 def test_a_disc_without_another_body_cannot_be_held(model):
     modes = complex_modes(model, small_friction_map(0.6), settings=Modes(friction_steps=2, speeds=("8 rad/s",)))
-    whole = family(model, 1, small_friction_map(0.6), stability_settings(modes))
+    whole = family(model, 1, small_friction_map(0.6), StabilitySettings.of(modes))
     with pytest.raises(ConfigError, match=r"line_evidence.disc: expected not every body"):
         on_rigid_disc(whole, [str(name) for name in model.body_name])
 
@@ -130,7 +131,7 @@ def test_a_disc_without_another_body_cannot_be_held(model):
 def test_on_a_rigid_disc_the_roots_are_those_of_the_model_with_its_disc_held(model):
     law = small_friction_map(0.6)
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz"))
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     rigid = on_rigid_disc(family(model, 1, law, points), ["disc"])
     found = sampled(rigid, [8.0], points.frequency_max, smallest=1e-6).roots(NOMINAL, 8.0)
     contact = sampled(rigid, [8.0], points.frequency_max).sliding.slide(NOMINAL, 8.0)

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import family, stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
+from pipeline.case_models.scatter import family
 from pipeline.diagnosis.published.pressure_cycle import Cycle, cycle_fields, faded, no_cycle, swellings
 from pipeline.physics.stability.draws.scatter import NOMINAL
 from pipeline.physics.stability.draws.whole_roots import whole_roots
@@ -59,7 +60,7 @@ def brake():
     model = reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz"))
     law = small_friction_map(0.6)
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz"))
-    return model, family(model, -1, law, stability_settings(modes))
+    return model, family(model, -1, law, StabilitySettings.of(modes))
 
 
 def test_a_phase_has_the_roots_of_its_pressure_and_speed(brake):

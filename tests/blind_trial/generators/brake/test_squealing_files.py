@@ -7,7 +7,8 @@ import pytest
 
 from pipeline.blind_trial.generators.brake import brake_parts, squealing_brake, squealing_files
 from pipeline.blind_trial.generators.brake.squealing_brake import DRAWN, ONE_WAY, TWO_WAY, growing, inclined
-from pipeline.case_models.scatter import family, stability_settings
+from pipeline.case_models.operating_points import StabilitySettings
+from pipeline.case_models.scatter import family
 from pipeline.contract import documents
 from pipeline.diagnosis.published.line_hypotheses import on_rigid_disc
 from pipeline.physics.stability.draws.sampled_roots import sampled
@@ -47,7 +48,7 @@ def nominal():
 def test_its_unstable_modes_are_those_of_the_brake_as_drawn(nominal, rigid):
     """Within the model error that the case states, at the middle load."""
     model, modes, asked = nominal
-    points = stability_settings(modes)
+    points = StabilitySettings.of(modes)
     case = family(model, 1, None, points)
     case = on_rigid_disc(case, asked.disc) if rigid else case
     roots = sampled(case, [6.0], points.frequency_max).roots(NOMINAL, 6.0)
