@@ -59,7 +59,8 @@ class Settings(Section):
         None, "coefficient of friction at high slip speed, where the chain has no friction map; none = that of the"
         " model", ge=0)
     friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
-    decay_speed: Quantity("m/s", gt=0) = option(DECAY_SPEED, "slip speed over which friction falls from one to the other")
+    decay_speed: Quantity("m/s", gt=0) = option(
+        DECAY_SPEED, "slip speed over which friction falls from one to the other")
     friction_max: float = option(0.8, "last friction coefficient of the sweep, which starts at 0", gt=0)
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion; under hard contacts"
