@@ -7,7 +7,7 @@ from pipeline.case_models.steady_sliding import posed
 from pipeline.effects import CATALOGUE
 from pipeline.effects.typical import ASPERITIES
 from pipeline.physics.friction.dry_friction import constant
-from pipeline.physics.friction.state_kernels import SETTLING
+from pipeline.physics.friction.state_kernels import settles
 from pipeline.physics.friction.state_variables import state_kernel
 from pipeline.physics.stability.linearisation import maxwell_branches
 from pipeline.physics.time_stepping.element_forces import FRICTION
@@ -53,8 +53,8 @@ def at_a_brake(name):
 def remembers(name):
     """Whether an effect has states of its own beside small motions."""
     case = at_a_brake(name)
-    kinds = state_kernel(case.friction(constant(0.4)), case.bench.model.contacts.area).kind
-    return any(kind in SETTLING for kind in kinds) or len(maxwell_branches(case.bench.model)[1]) > 0
+    states = state_kernel(case.friction(constant(0.4)), case.bench.model.contacts.area)
+    return bool(settles(states).any()) or len(maxwell_branches(case.bench.model)[1]) > 0
 
 
 def cycles(name):

@@ -20,11 +20,15 @@ from pipeline.physics.friction.dry_friction import (
 )
 from pipeline.physics.numerics.compiled import borrowing
 
-MEMORY, HEALING, DISTANCE, FILM, FADE, PLATEAUS, SCATTER = range(7)
+MEMORY, DISTANCE, SCATTER, EVOLVING = range(4)
+#: what a state x that evolves makes of friction, g being its gain: 1 + g x, 1 + g ln(1 + x), 1 / (1 + g x), x
+LINEAR, LOGARITHMIC, INVERSE, ITSELF = range(4)
+#: columns of StateKernel.parameter of a state that evolves: source and rate over (1, v, p v, q), form, gain, whether it
+#: comes to rest in steady sliding, where it begins at rest
+SOURCE, RATE, FORM, GAIN, SETTLES, AT_REST = 0, 4, 8, 9, 10, 11
+PARAMETERS = 12
 #: below this a rate times a step counts as none, where series replace quotients
 _SMALL = 1e-5
-#: the states that come to rest in steady sliding, about which small motions are found; the others drift or turn
-SETTLING = (MEMORY, HEALING, PLATEAUS)
 
 
 class StateKernel(NamedTuple):
@@ -32,54 +36,58 @@ class StateKernel(NamedTuple):
 
     kind: np.ndarray        # (k,)
     contact: np.ndarray     # (k,)
-    parameter: np.ndarray   # (k, 3)
+    parameter: np.ndarray   # (k, PARAMETERS)
     area: np.ndarray        # (c,) m^2
     begin: np.ndarray       # (c,) m, distance where the table is read first
+
+
+def settles(states):
+    """True (k,) for states that come to rest in steady sliding, about which small motions are; others drift or turn."""
+    return (states.kind == MEMORY) | ((states.kind == EVOLVING) & (states.parameter[:, SETTLES] > 0))
 
 
 @borrowing
 def source_and_rate(kind, p, load, area, speed, drawn):
     """(s, r) of a state under a load N, at a slip speed >= 0, with the friction force ``drawn`` >= 0 N."""
-    if kind == HEALING:
-        return p[1] / p[2], speed / p[2]
     if kind == DISTANCE:
         return speed, 0.0
-    if kind == FILM:
-        return speed / p[1] * load / (area * p[2]), speed / p[1]
-    if kind == FADE:
-        return drawn * speed / (area * p[1] * p[2]), 1.0 / p[2]
-    if kind == PLATEAUS:
-        return (1.0 + p[0]) / p[2], (1.0 + p[0] * load * speed / (area * p[1])) / p[2]
+    if kind == EVOLVING:
+        rubbed, heat = load * speed / area, drawn * speed / area
+        return (p[SOURCE] + p[SOURCE + 1] * speed + p[SOURCE + 2] * rubbed + p[SOURCE + 3] * heat,
+                p[RATE] + p[RATE + 1] * speed + p[RATE + 2] * rubbed + p[RATE + 3] * heat)
     return 0.0, 0.0
 
 
 @borrowing
 def factor(kind, p, x, angle):
     """What a state makes of friction; 1 where it does not act as a factor."""
-    if kind == HEALING:
-        return 1.0 + p[0] * np.log1p(x)
-    if kind == FILM:
-        return 1.0 + p[0] * x
-    if kind == FADE:
-        return 1.0 / (1.0 + p[0] * x)
-    if kind == PLATEAUS:
-        return x
+    if kind == EVOLVING:
+        if p[FORM] == LINEAR:
+            return 1.0 + p[GAIN] * x
+        if p[FORM] == LOGARITHMIC:
+            return 1.0 + p[GAIN] * np.log1p(x)
+        return 1.0 / (1.0 + p[GAIN] * x) if p[FORM] == INVERSE else x
     if kind == SCATTER:
         return 1.0 + p[0] * np.cos(p[1] * angle - p[2])
     return 1.0
 
 
-def rate_slopes(kind, p, load, area, speed):
-    """(r, dr/dN, dr/dv) of a state that settles; its source is constant."""
-    if kind == HEALING:
-        return speed / p[2], 0.0, 1.0 / p[2]
-    by_power = p[0] / (area * p[1] * p[2])
-    return (1.0 / p[2] + by_power * load * speed, by_power * speed, by_power * load)
+def state_slopes(p, x, load, area, speed):
+    """(r, and what x' changes by over N and over v at a state ``x``) of one that settles, whatever the heat."""
+    heard = [p[first + 1] + p[first + 2] * load / area for first in (SOURCE, RATE)]
+    pressed = [p[first + 2] * speed / area for first in (SOURCE, RATE)]
+    rate = source_and_rate(EVOLVING, p, load, area, speed, 0.0)[1]
+    return rate, pressed[0] - x * pressed[1], heard[0] - x * heard[1]
 
 
-def factor_slope(kind, p, x):
-    """Change of friction with a state that settles and acts as a factor, as a share of friction."""
-    return p[0] / (1.0 + x) / (1.0 + p[0] * np.log1p(x)) if kind == HEALING else 1.0 / x
+def factor_slope(p, x):
+    """Change of friction with a state that evolves, as a share of friction."""
+    if p[FORM] == ITSELF:
+        return 1.0 / x
+    inner = {LINEAR: 1.0, LOGARITHMIC: 1.0 / (1.0 + x)}.get(int(p[FORM]))
+    if inner is None:
+        return -p[GAIN] / (1.0 + p[GAIN] * x)
+    return p[GAIN] * inner / factor(EVOLVING, p, x, 0.0)
 
 
 @borrowing

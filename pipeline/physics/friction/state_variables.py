@@ -4,12 +4,15 @@ Every state obeys x' = s - r x, with s and r from the load N, the slip speed v >
 A of the contact:
 
     memory    s = (v / L) (N, v), r = v / L            T = mu x_N, mu read at the load x_N and the speed x_v
+    evolving  s, r = a + b v + c p v + d q             mu f(x), p = N / A, q = |T| v / A; f of four forms
     healing   s = v_0 / L,        r = v / L            mu (1 + b ln(1 + x)), x = v_0 theta / L: Dieterich's ageing law
     distance  s = v,              r = 0                mu is read at the distance x
     film      s = v p / (d p_0),  r = v / d            mu (1 + g x), p = N / A
     fade      s = |T| v / (A q tau), r = 1 / tau       mu / (1 + d x)
     plateaus  s = (1 + k) / tau,  r = (1 + k p v / q) / tau     mu x
     scatter   none                                     mu (1 + a cos(n angle - phase))
+
+Healing, film, fade and plateaus evolve; a law of one's own is one more ``Evolving``, whose slopes follow from it.
 """
 
 from dataclasses import astuple, dataclass, replace
@@ -20,18 +23,21 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, parts
 from pipeline.physics.friction.dry_friction import LOAD_KEPT, LOAD_SHARE, coefficient, coefficients, kernel
 from pipeline.physics.friction.state_kernels import (
+    AT_REST,
     DISTANCE,
-    FADE,
-    FILM,
-    HEALING,
+    EVOLVING,
+    INVERSE,
+    ITSELF,
+    LINEAR,
+    LOGARITHMIC,
     MEMORY,
-    PLATEAUS,
+    PARAMETERS,
     SCATTER,
-    SETTLING,
     StateKernel,
     expect,
     factor,
     settle,
+    settles,
     source_and_rate,
 )
 from pipeline.physics.numerics.compiled import njit
@@ -45,12 +51,45 @@ class Memory:
 
 
 @dataclass(frozen=True)
+class Evolving:
+    """A state x' = s - r x, ``source`` s and ``rate`` r 1/s being sums over (1, v, p v, q), and friction times f(x).
+
+    v m/s, p v and q W/m^2 as above; ``form``: LINEAR 1 + g x, LOGARITHMIC 1 + g ln(1 + x), INVERSE 1 / (1 + g x) or
+    ITSELF x, with the ``gain`` g. ``settles``: motions begin where it has come to rest in steady sliding, s / r without
+    heat, or ``at_rest`` where nothing lets it go; else at 0.
+    """
+
+    source: tuple[float, float, float, float]
+    rate: tuple[float, float, float, float]
+    form: int = LINEAR
+    gain: float = 1.0
+    settles: bool = True
+    at_rest: float = 0.0
+
+    def __post_init__(self):
+        if self.settles and (self.source[3] or self.rate[3]):
+            raise ConfigError("friction states", "no heat where a state settles, as that is not yet known there",
+                              "a source or a rate by heat", "set settles to False")
+
+    @property
+    def parameters(self):
+        """Row of a StateKernel."""
+        return (*self.source, *self.rate, self.form, self.gain, float(self.settles), self.at_rest)
+
+
+@dataclass(frozen=True)
 class Healing:
     """Friction grows with the age of the contact: ``share`` b, ``speed`` v_0 m/s, ``length`` L m."""
 
     share: float
     speed: float
     length: float
+
+    @property
+    def law(self):
+        """Evolving."""
+        return Evolving((self.speed / self.length, 0.0, 0.0, 0.0), (0.0, 1 / self.length, 0.0, 0.0), LOGARITHMIC,
+                        self.share, at_rest=1.0)
 
 
 @dataclass(frozen=True)
@@ -66,6 +105,12 @@ class Film:
     length: float
     pressure: float
 
+    @property
+    def law(self):
+        """Evolving."""
+        return Evolving((0.0, 0.0, 1 / (self.length * self.pressure), 0.0), (0.0, 1 / self.length, 0.0, 0.0), LINEAR,
+                        self.gain, settles=False)
+
 
 @dataclass(frozen=True)
 class Fade:
@@ -75,6 +120,12 @@ class Fade:
     heat: float
     time: float
 
+    @property
+    def law(self):
+        """Evolving."""
+        return Evolving((0.0, 0.0, 0.0, 1 / (self.heat * self.time)), (1 / self.time, 0.0, 0.0, 0.0), INVERSE,
+                        self.drop, settles=False)
+
 
 @dataclass(frozen=True)
 class Plateaus:
@@ -83,6 +134,12 @@ class Plateaus:
     strength: float
     heat: float
     time: float
+
+    @property
+    def law(self):
+        """Evolving."""
+        return Evolving(((1 + self.strength) / self.time, 0.0, 0.0, 0.0),
+                        (1 / self.time, 0.0, self.strength / (self.heat * self.time), 0.0), ITSELF)
 
 
 @dataclass(frozen=True)
@@ -94,8 +151,7 @@ class Scatter:
     phase: np.ndarray | float
 
 
-_KIND = {Memory: MEMORY, Healing: HEALING, Distance: DISTANCE, Film: FILM, Fade: FADE, Plateaus: PLATEAUS,
-         Scatter: SCATTER}
+_KIND = {Memory: MEMORY, Distance: DISTANCE, Scatter: SCATTER, Evolving: EVOLVING}
 
 
 def state_kernel(friction, area):
@@ -104,11 +160,11 @@ def state_kernel(friction, area):
     for law, members in parts(friction, len(area)):
         begin[members] = law.distance
         for state in law.states:
-            values = np.zeros((len(area), 3))
-            for k, value in enumerate(astuple(state)):
+            state, values = getattr(state, "law", state), np.zeros((len(area), PARAMETERS))
+            for k, value in enumerate(getattr(state, "parameters", None) or astuple(state)):
                 values[:, k] = value
             rows += [(_KIND[type(state)], i, *values[i]) for i in members]
-    rows = np.array(rows, float).reshape(-1, 5)
+    rows = np.array(rows, float).reshape(-1, 2 + PARAMETERS)
     if not np.isfinite(rows).all():
         raise ConfigError("friction states", "finite values", str(rows[~np.isfinite(rows).all(axis=1), 2:]))
     return StateKernel(rows[:, 0].astype(np.int64), rows[:, 1].astype(np.int64), np.array(rows[:, 2:]),
@@ -120,18 +176,16 @@ def started(states, load, speed):
 
     Films are not yet there, heat neither; what starts at rest has just come to rest from the speed v_0 of its law.
     """
-    value = np.zeros((len(states.kind), 2))
+    value, settled = np.zeros((len(states.kind), 2)), settles(states)
     for k, (kind, i) in enumerate(zip(states.kind, states.contact, strict=True)):
         swift = abs(speed[i])
         if kind == MEMORY:
             value[k] = load[i], swift
         elif kind == DISTANCE:
             value[k, 0] = states.begin[i]
-        elif kind == HEALING and swift == 0:
-            value[k, 0] = 1.0
-        elif kind in SETTLING:
+        elif settled[k]:
             source, rate = source_and_rate(kind, states.parameter[k], load[i], states.area[i], swift, 0.0)
-            value[k, 0] = source / rate
+            value[k, 0] = source / rate if rate > 0 else states.parameter[k, AT_REST]
     return value
 
 

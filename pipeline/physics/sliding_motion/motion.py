@@ -15,7 +15,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.friction.dry_friction import FACTOR, READ_AT, at_one_distance, characteristic, kernel
-from pipeline.physics.friction.state_kernels import MEMORY, SETTLING, StateKernel
+from pipeline.physics.friction.state_kernels import MEMORY, StateKernel, settles
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding_motion.attached_elements import AttachedKernel, attached, beyond_slopes
@@ -247,7 +247,7 @@ def _states(friction, count, first, area):
     contact of ``count``; their entries (s, 2) in a Settling of the contacts, -1 for none)."""
     whole, patch = state_kernel(friction, np.ones(count)), np.full(count, -1)
     patch[first] = np.arange(len(first))
-    entries = np.where(np.isin(whole.kind, SETTLING), 1 + (whole.kind == MEMORY), 0)
+    entries = np.where(settles(whole), 1 + (whole.kind == MEMORY), 0)
     begin, kept = np.cumsum(entries) - entries, (patch[whole.contact] >= 0) & (entries > 0)
     settling = np.column_stack((begin, np.where(entries > 1, begin + 1, -1)))[kept]
     return StateKernel(whole.kind[kept], patch[whole.contact[kept]], whole.parameter[kept], np.array(area, float),

@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import parts
-from pipeline.physics.friction.state_kernels import MEMORY, PLATEAUS, SETTLING, factor_slope, rate_slopes
+from pipeline.physics.friction.state_kernels import EVOLVING, MEMORY, factor_slope, settles, state_slopes
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.system.forms import spread
@@ -105,18 +105,20 @@ def _of_friction(contacts, sign, speed, friction, states, value):
         rate.append(-by_load * contacts.damping[i] * contacts.normal[i] - by_speed * sign[i] * contacts.tangent[i])
         decay.append(leaving)
 
+    settled = settles(states)
     for k, (kind, i, p) in enumerate(zip(states.kind, states.contact, states.parameter, strict=True)):
         load, x = contacts.preload[i], value[k, 0]
-        if kind in (MEMORY, PLATEAUS) and load > 0 and contacts.stiffness[i] == 0 and not contacts.fixed[i]:
+        leaving, by_load, by_speed = (state_slopes(p, x, load, contacts.area[i], speed[i]) if kind == EVOLVING
+                                      else (0.0, float(kind == MEMORY), 0.0))
+        if by_load and settled[k] and load > 0 and contacts.stiffness[i] == 0 and not contacts.fixed[i]:
             raise ConfigError("friction that remembers its load", "contacts that yield", "a hard one",
                               "give the contact a stiffness")
         if kind == MEMORY:
             leaving = speed[i] / p[0]
             add(i, friction.load_slope(contacts.pressure)[i], leaving, 0.0, leaving)
             add(i, load * friction.speed_slope[i], 0.0, leaving, leaving)
-        elif kind in SETTLING:
-            leaving, by_load, by_speed = rate_slopes(kind, p, load, contacts.area[i], speed[i])
-            add(i, load * friction.coefficient[i] * factor_slope(kind, p, x), -x * by_load, -x * by_speed, leaving)
+        elif settled[k]:
+            add(i, load * friction.coefficient[i] * factor_slope(p, x), by_load, by_speed, leaving)
     none = np.empty((0, contacts.tangent.shape[1]))
     return (np.array(push or none).T, np.array(place or none), np.array(rate or none), np.array(decay, float))
 

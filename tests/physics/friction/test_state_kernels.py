@@ -17,17 +17,17 @@ from pipeline.physics.friction.dry_friction import (
     kernel,
 )
 from pipeline.physics.friction.state_kernels import (
-    FILM,
-    HEALING,
-    PLATEAUS,
+    EVOLVING,
+    INVERSE,
+    PARAMETERS,
     expect,
     factor,
     factor_slope,
-    rate_slopes,
     settle,
     source_and_rate,
+    state_slopes,
 )
-from pipeline.physics.friction.state_variables import Fade, Film, Healing, Memory, Plateaus, state_kernel
+from pipeline.physics.friction.state_variables import Evolving, Fade, Film, Healing, Memory, Plateaus, state_kernel
 
 AREA, LOAD, SPEED, DRAWN, STEP = 2e-3, 30.0, 1.5, 9.0, 0.05
 
@@ -75,19 +75,26 @@ def test_memory_of_a_load_that_grows_over_the_step(length):
     assert value[0, 0] == 0.0
 
 
+OWN = Evolving((0.5, 0.2, 3e-5, 0.0), (1.0, 0.4, 2e-5, 0.0), INVERSE, 0.3)
+
+
 @pytest.mark.exact
-@pytest.mark.parametrize("state, kind", [(Healing(0.1, 3.0, 0.2), HEALING), (Plateaus(0.5, 2e4, 0.1), PLATEAUS)],
-                         ids=["healing", "plateaus"])
-def test_slopes_are_those_of_the_equations(state, kind):
+@pytest.mark.parametrize("state", [Healing(0.1, 3.0, 0.2), Plateaus(0.5, 2e4, 0.1), Film(0.3, 0.2, 1e4), OWN],
+                         ids=lambda s: type(s).__name__)
+def test_slopes_are_those_of_the_equations(state):
     p, x, small = one(state)[0].parameter[0], 0.8, 1e-6
-    rate, by_load, by_speed = rate_slopes(kind, p, LOAD, AREA, SPEED)
-    assert rate == source_and_rate(kind, p, LOAD, AREA, SPEED, 0.0)[1]
-    heavier, faster = (source_and_rate(kind, p, *s, 0.0)[1] for s in ((LOAD + small, AREA, SPEED),
-                                                                      (LOAD, AREA, SPEED + small)))
-    assert ((heavier - rate) / small, (faster - rate) / small) == pytest.approx((by_load, by_speed), rel=1e-6, abs=1e-8)
-    change = (factor(kind, p, x + small, 0.0) / factor(kind, p, x, 0.0) - 1) / small
-    assert change == pytest.approx(factor_slope(kind, p, x), rel=1e-5)
+
+    def moving(load, speed):
+        source, rate = source_and_rate(EVOLVING, p, load, AREA, speed, 0.0)
+        return source - rate * x, rate
+
+    (here, leaving), (rate, by_load, by_speed) = moving(LOAD, SPEED), state_slopes(p, x, LOAD, AREA, SPEED)
+    assert rate == leaving
+    heavier, faster = moving(LOAD + small, SPEED)[0], moving(LOAD, SPEED + small)[0]
+    assert ((heavier - here) / small, (faster - here) / small) == pytest.approx((by_load, by_speed), rel=1e-5, abs=1e-8)
+    change = (factor(EVOLVING, p, x + small, 0.0) / factor(EVOLVING, p, x, 0.0) - 1) / small
+    assert change == pytest.approx(factor_slope(p, x), rel=1e-5)
 
 
 def test_a_film_without_gain_is_none():
-    assert factor(FILM, np.zeros(3), 5.0, 0.0) == 1.0
+    assert factor(EVOLVING, np.zeros(PARAMETERS), 5.0, 0.0) == 1.0

@@ -10,6 +10,7 @@ from pipeline.physics.friction.dry_friction import constant, tabulated
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.friction.state_variables import (
     Distance,
+    Evolving,
     Fade,
     Film,
     Healing,
@@ -130,3 +131,8 @@ def test_memory_of_impulses_and_endless_values_are_refused():
         respond(replace(bench, law=Hard(), settled=False), run)
     with pytest.raises(ConfigError, match="finite"):
         respond(replace(bench, friction=replace(bench.friction, states=(Memory(np.inf),))), run)
+
+
+def test_a_state_under_heat_does_not_settle():
+    with pytest.raises(ConfigError, match="no heat where a state settles"):
+        Evolving((0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0))
