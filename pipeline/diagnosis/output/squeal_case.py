@@ -95,7 +95,9 @@ class _Writer:
             self._body(owner, what, value, std / value)
         elif name == "contact.stiffness":
             for contact in self.lumped["contacts"].values():
-                if "stiffness" in contact:
+                if "stiffness" in contact:      # areas stay those of the bench, which effects read pressures by
+                    given = to_si(_plain(contact["stiffness"]), "N/m", "stiffness")
+                    contact.setdefault("area", f"{given!r} m^2")
                     contact["stiffness"] = self._scaled(contact["stiffness"], "N/m", value)
             self._scatters("contact_stiffness", None, std / value)
         elif kind not in ("channels", "inputs"):        # which are of the recording

@@ -78,6 +78,7 @@ def test_its_matrices_are_those_of_the_corrected_bench(written):
     for ours, theirs in zip(found.supported(), expected, strict=True):
         np.testing.assert_allclose(ours, theirs, rtol=1e-12)
     assert model.contact_stiffness == pytest.approx(0.8 * 3e6)
+    np.testing.assert_allclose(found.contacts.area, bench.model.contacts.area)
 
 
 def test_it_can_be_run_at_the_points_that_slid(written):
