@@ -10,6 +10,7 @@ from pathlib import Path
 
 from pipeline import __version__
 from pipeline.contract import documents, settings
+from pipeline.contract.chain import SECTIONS, from_sections
 from pipeline.contract.context import CaseSummary
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.received import confined
@@ -166,16 +167,26 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     """
     path = Path(path)
     document, folders = _read(path, chains)
-    name = document.get("chain")
-    if not isinstance(name, str) or name not in chains:
-        raise ConfigError(f"{path}: chain", f"one of {', '.join(chains)}", repr(name))
-    stages = tuple(stage_of(each) for each in chains[name])
+    stages = tuple(stage_of(each) for each in _named(path, document, chains, stage_of))
     for _, item in _kinds_first((item.partition("=")[0], item) for item in overrides):
         _override(document, stages, item)
     _check_keys(path, document, stages)
     case = CaseFile(path, document, stages, folders, measured, tuple(unread))
     case.check()
     return case
+
+
+def _named(path, document, chains, stage_of):
+    """Names of the stages of a document: those of its chain, or those that its sections ask for, which it then says."""
+    name = document.get("chain") or SECTIONS
+    if name == SECTIONS:
+        every = {each: stage_of(each) for each in dict.fromkeys(each for names in chains.values() for each in names)}
+        found = from_sections(document, every, path)
+        document["chain"] = next((known for known, names in chains.items() if names == found), SECTIONS)
+        return found
+    if not isinstance(name, str) or name not in chains:
+        raise ConfigError(f"{path}: chain", f"one of {', '.join(chains)}, or {SECTIONS}", repr(name))
+    return chains[name]
 
 
 def _read(path, chains, readers=()):

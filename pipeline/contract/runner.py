@@ -13,8 +13,8 @@ from pathlib import Path
 from pipeline import __version__
 from pipeline.contract import fingerprint, further, store
 from pipeline.contract.context import Context
-from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
+from pipeline.contract.executors.cpu_time import cpu_seconds
 from pipeline.contract.executors.long_tasks import LongTasks
 from pipeline.contract.executors.unfinished import Unfinished
 from pipeline.contract.integrity import checksum, examined, seen

@@ -4,7 +4,7 @@ import statistics
 import time
 from dataclasses import dataclass
 
-from pipeline.contract.cpu_time import cpu_seconds
+from pipeline.contract.executors.cpu_time import cpu_seconds
 
 
 @dataclass(frozen=True)

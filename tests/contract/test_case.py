@@ -58,7 +58,7 @@ def test_an_alias_is_a_copy(tmp_path):
 
 
 @pytest.mark.parametrize("text, message", [
-    ("chain: tuy", "chain: expected one of toy, varied, beside, searched, found 'tuy'"),
+    ("chain: tuy", "chain: expected one of toy, varied, beside, searched, or sections, found 'tuy'"),
     ("chain: toy\nsuorce: {}", "suorce: unknown section; did you mean 'source'?"),
     ("chain: toy\nsource: {duration: -3 s}", "source.duration: input should be greater than 0"),
     ("chain: toy\nsource: {}\nsource: {}", "expected 'source' once, found it again"),
@@ -68,7 +68,7 @@ def test_an_alias_is_a_copy(tmp_path):
     ("chain: toy\nsolver: fast", "solver: expected one of auto, pypardiso, superlu"),
     ("chain: toy\ntitle: [1]", "title: expected text"),
     ("chain: toy\nsource: 3", "source: expected a mapping of settings"),
-    ("chain: [toy]", "chain: expected one of toy, varied, beside, searched, found ['toy']"),
+    ("chain: [toy]", "chain: expected one of toy, varied, beside, searched, or sections, found ['toy']"),
     ("chain: toy\ntitle: 2020-13-45", "bad.yaml:2: expected a timestamp, found '2020-13-45' (month must be in 1..12)"),
     ("chain: toy\nsource: {duration: !!bool 3 s}", "bad.yaml:2: expected a bool, found '3 s'; correct it, or quote"),
     ("chain: toy\ntitle: !!int x", "bad.yaml:2: expected a int, found 'x'"),

@@ -13,8 +13,8 @@ from concurrent.futures.process import BrokenProcessPool
 
 from threadpoolctl import threadpool_limits
 
-from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.executors.cpu_time import cpu_seconds
 from pipeline.contract.executors.lent_arrays import Lender
 from pipeline.contract.fingerprint import project_digest
 from pipeline.contract.following import follow

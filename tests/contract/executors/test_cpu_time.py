@@ -7,8 +7,8 @@ import time
 import pytest
 
 from pipeline.contract import Context, case, runner, store
-from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.executors import LocalProcesses, run_task
+from pipeline.contract.executors.cpu_time import cpu_seconds
 from tests.contract.toy import CHAINS, load
 
 SPENT = 0.3     # s
