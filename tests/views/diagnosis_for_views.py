@@ -18,9 +18,9 @@ def run(held_out):
     random = np.random.default_rng(held_out)
     noise, truth = 0.01 * random.standard_normal((1, 600)), np.sin(2 * np.pi * 2 * TIME)[None]
     tone = 0.3 * np.sin(2 * np.pi * 5 * TIME)[None]
-    return DiagnosedRun(held_out=held_out, time=TIME, measured=truth + noise, valid=np.ones((1, 600), int),
-                        nominal=truth - 2 * tone, recalibrated=truth - tone, completed=truth, noise=[0.01],
-                        error=[0.6, 0.3, 0.014, 0.014])
+    return DiagnosedRun(held_out=held_out, condition=[], condition_value=[], time=TIME, measured=truth + noise,
+                        valid=np.ones((1, 600), int), nominal=truth - 2 * tone, recalibrated=truth - tone,
+                        completed=truth, noise=[0.01], error=[0.6, 0.3, 0.014, 0.014])
 
 
 def diagnosis(verdict="missing", **values):

@@ -19,7 +19,7 @@ def curved_law(rows):
 
 def curved_map(rows, level=0.6):
     """FrictionMap of ``level`` + 0.03 ln(p / 1 MPa) - 0.02 v s/m."""
-    pressure, speed = np.geomspace(1e4, 1e7, rows), np.linspace(0.05, 20, 41)
+    pressure, speed = np.geomspace(1e4, 1e7, rows), np.linspace(0.05, 20, 21)
     friction = level + 0.03 * np.log(pressure / 1e6)[:, None, None] - 0.02 * speed[:, None] + np.zeros(2)
     return replace(small_friction_map(level), pressure=pressure, speed=speed, friction=friction,
                    friction_std=0 * friction, normal_stiffness=np.full((len(pressure), 2), 1e12))

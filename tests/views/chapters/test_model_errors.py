@@ -21,8 +21,8 @@ def stop(held_out, growth=314.8):
     measured[1] = growth
     models = {name: measured + times * noise[:, None] * np.array([[1], [1], [0]])
               for name, times in (("nominal", 30), ("recalibrated", 7), ("completed", 2))}
-    return DiagnosedRun(held_out=held_out, time=[0.0], measured=measured, valid=np.array([VALID]).T, noise=noise,
-                        error=[0.5, 0.1, 0.05, 8.3], **models)
+    return DiagnosedRun(held_out=held_out, condition=[], condition_value=[], time=[0.0], measured=measured,
+                        valid=np.array([VALID]).T, noise=noise, error=[0.5, 0.1, 0.05, 8.3], **models)
 
 
 def told(verdict="missing", **runs):
