@@ -144,8 +144,8 @@ def test_settings_that_move_the_mesh_are_ranked_with_the_others(brake, made):
 @pytest.mark.slow
 def test_thirty_values_of_the_quick_brake_within_five_percent_of_differences(tmp_path):
     """Two modes of the quick case, its contact law and its map refined until their steps are no matter: growth rates of
-    the whole reduced model with each value 0.5 % up and down, 5 % where it moves little, half of what is typical where
-    it is 0."""
+    the whole reduced model with each value 0.5 % up and down, 1 % where it moves little, half of what is typical where
+    it is 0. Roots are uncertain by 0.003 1/s, as sliding states are found to 1e-7 of a contact force."""
     brakechain("run", ROOT / "configs" / "disc_brake_quick.yaml", "--until", "complex_modes", "--run", tmp_path)
     structure, model, law = (store.read(cls, tmp_path / f"{name}.h5") for cls, name in (
         (Structure, "structure"), (ReducedModel, "reduced_model"), (FrictionMap, "friction_map")))
@@ -160,11 +160,11 @@ def test_thirty_values_of_the_quick_brake_within_five_percent_of_differences(tmp
         case = Case(without_surface(model), state, 10.0)
         for p, value in enumerate(parameters(case, structure, float(found.friction[k]), points)):
             slope = found.derivative[k, p] * value.reference
-            step = 0.005 if abs(slope) > 50 else 0.02 if value.value else 0.5
+            step = 0.005 if abs(slope) > 50 else 0.01 if value.value else 0.5
             ends = [(system_of(value.changed(case, side * step), law, points), found.root[k] + side * step * slope)
                     for side in (-1, 1)]
             low, high = (polished_root(*end).root for end in ends)
-            assert slope.real == pytest.approx((high - low).real / (2 * step), rel=0.05, abs=0.02), value.name
+            assert slope.real == pytest.approx((high - low).real / (2 * step), rel=0.05, abs=0.003 / step), value.name
             checked += 1
     assert checked >= 60
 

@@ -14,10 +14,10 @@ import scipy
 from pipeline.physics.numerics.half_matrices import Half
 from pipeline.physics.numerics.orthonormal import orthonormal_beside, within
 from pipeline.physics.numerics.sparse_solver import Upper
-from pipeline.physics.system.forms import spread
+from pipeline.physics.system.terms import What
 
-#: powers of s and W that the gyroscopic matrix stands with
-_GYROSCOPIC = (1, 1)
+#: powers of W that the terms of what turns stand with
+_TURNS = {What.GYROSCOPIC: 1, What.CENTRIFUGAL: 2}
 #: what is left of a vector of unit length that counts as rounding
 _ROUNDING = 1e-12
 
@@ -55,14 +55,11 @@ class SharedOperator:
     @classmethod
     def of(cls, model, gyroscopic=True, centrifugal=True):
         """Of a sparse SlidingModel, at any speed and sliding state."""
-        joints = [(spread(model.joints.rows, weight, model.joints.rows), order, 0)
-                  for order, weight in enumerate((model.joints.stiffness, model.joints.damping))]
-        terms = [(model.mass, 2, 0), (model.damping, 1, 0), (model.stiffness, 0, 0), *joints]
-        terms += [(model.gyroscopic, *_GYROSCOPIC)] if gyroscopic else []
-        terms += [(model.centrifugal, 0, 2)] if centrifugal else []
-        contacts = model.contacts
-        halves = [(Half(matrix, -1 if tuple(powers) == _GYROSCOPIC else 1), *powers) for matrix, *powers in terms
-                  if matrix.count_nonzero()]
+        contacts, halves = model.contacts, []
+        for term in model.at_speed(1.0).supporting(gyroscopic, centrifugal).terms:
+            if (matrix := term.matrix).count_nonzero():
+                skew = -1 if term.name == What.GYROSCOPIC else 1
+                halves.append((Half(matrix, skew), term.kind.order, _TURNS.get(term.name, 0)))
         return cls(tuple(halves),
                    scipy.sparse.vstack((contacts.normal, contacts.tangent, contacts.lateral), format="csr"))
 
