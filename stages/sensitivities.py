@@ -77,10 +77,9 @@ def _chosen(modes, count):
 
 def _case(brake, modes, points, operating):
     """(Case of the products ReducedModel and Effects, or None, at an operating point, mean friction there)."""
-    (model, effects) = brake
+    model, effects = brake
     state, speed = divmod(int(operating), len(points.speeds))
-    case = Case(without_surface(at_state(model, state)), state, points.speeds[speed],
-                effects=effects)
+    case = Case(without_surface(at_state(model, state)), state, points.speeds[speed], effects=effects)
     return case, float(modes.operating_friction[operating])
 
 

@@ -184,7 +184,9 @@ class SlidingMotion:
     @cached_property
     def reach(self):
         """(m,) amplitude of each modal coordinate at which a patch moves by the scale of the contact law."""
-        return np.array([abs(self.reaching(each)).max() for each in np.eye(len(self.modes.root), dtype=complex)])
+        m, p = len(self.modes.root), len(self.patches.load)
+        largest = np.hypot(self.motion[:p, :m], self.motion[:p, m:]).max(axis=0)
+        return self.patches.scale / np.maximum(largest, np.finfo(float).tiny)
 
 
 def sliding_motion(model, closure, friction, law, modes, group, size, stick_speed, slopes=None, rest=None,

@@ -80,28 +80,26 @@ def foresee(k, value, seen, step):
     follow along a line: factors would be late by half a step otherwise.
     """
     states, contact = k.states, k.friction.contact
-    if states.kind.size:
-        expect(states, value, k.friction, seen[0, 0], seen[0, 1], seen[0, 2], 0.0, 0.0, step, False)
-        contact[:, FACTOR] = 1.0
-        for s in range(states.kind.size):
-            kind, i, p = states.kind[s], states.contact[s], states.parameter[s]
-            if kind != MEMORY:
-                middle = 1.5 * seen[0, :, i] - 0.5 * seen[1, :, i]
-                after = advanced(kind, p, value[s, 0], middle[0], states.area[i], abs(middle[1]), middle[2], step)
-                contact[i, FACTOR] *= factor(kind, p, after, 0.0)
+    expect(states, value, k.friction, seen[0, 0], seen[0, 1], seen[0, 2], 0.0, 0.0, step, False)
+    contact[:, FACTOR] = 1.0
+    for s in range(states.kind.size):
+        kind, i, p = states.kind[s], states.contact[s], states.parameter[s]
+        if kind != MEMORY:
+            middle = 1.5 * seen[0, :, i] - 0.5 * seen[1, :, i]
+            after = advanced(kind, p, value[s, 0], middle[0], states.area[i], abs(middle[1]), middle[2], step)
+            contact[i, FACTOR] *= factor(kind, p, after, 0.0)
 
 
 @njit
 def remember(k, value, seen, y, step):
     """Bring states ``value`` (s, 2) to the end of a ``step`` s with the motion ``y`` (4, p), and what was ``seen``."""
-    if k.states.kind.size:
-        seen[1] = seen[0]
-        for i in range(k.load.size):
-            load = normal_at(k, i, y[0, i], y[1, i])[0]
-            along, aside = k.speed[i] - y[2, i], -k.turns * y[3, i]
-            force = patch_friction(k.friction, i, load, k.pressure_per_load[i], along, aside, k.stick_speed)
-            seen[0, :, i] = load, np.sqrt(along * along + aside * aside), np.sqrt(force.x**2 + force.y**2)
-        settle(k.states, value, seen[1, 0], seen[0, 0], seen[1, 1], seen[0, 1], 0.5 * (seen[0, 2] + seen[1, 2]), step)
+    seen[1] = seen[0]
+    for i in range(k.load.size):
+        load = normal_at(k, i, y[0, i], y[1, i])[0]
+        along, aside = k.speed[i] - y[2, i], -k.turns * y[3, i]
+        force = patch_friction(k.friction, i, load, k.pressure_per_load[i], along, aside, k.stick_speed)
+        seen[0, :, i] = load, np.sqrt(along * along + aside * aside), np.sqrt(force.x**2 + force.y**2)
+    settle(k.states, value, seen[1, 0], seen[0, 0], seen[1, 1], seen[0, 1], 0.5 * (seen[0, 2] + seen[1, 2]), step)
 
 
 @njit(inline="always")

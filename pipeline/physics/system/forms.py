@@ -46,10 +46,6 @@ class Form(Protocol):
         """What the rows, coordinates or bodies contribute to y^H A x, for y = ``left`` and x = ``right``, each (n,)."""
         ...
 
-    def projected(self, left: Array, right: Array) -> "Form":
-        """L^T A R for bases L = ``left`` and R = ``right``, each (n, m)."""
-        ...
-
 
 @dataclass(frozen=True)
 class Rows:
@@ -91,12 +87,6 @@ class Rows:
         """(r,) what each row contributes to y^H A x."""
         return product(self.left, left).conj() * self.weight * product(self.right, right)
 
-    def projected(self, left: Array, right: Array) -> Self:
-        """L^T A R, of the same rank."""
-        onto = self.left @ left
-        same = self.left is self.right and left is right
-        return replace(self, left=onto, right=onto if same else self.right @ right)
-
 
 @dataclass(frozen=True)
 class Block:
@@ -136,10 +126,6 @@ class Block:
         """(n,) what each coordinate contributes to y^H A x."""
         return np.conj(left) * self.weight * product(self.whole, right)
 
-    def projected(self, left: Array, right: Array) -> "Block":
-        """L^T A R."""
-        return Block(left.T @ (self.matrix() @ right))
-
 
 @dataclass(frozen=True)
 class ByBody:
@@ -176,10 +162,6 @@ class ByBody:
     def shares(self, left: Array, right: Array) -> Array:
         """(b,) what each body contributes to y^H A x."""
         return np.broadcast_to(self.weight, len(self.part)) * ((self.part @ right) @ np.conj(left))
-
-    def projected(self, left: Array, right: Array) -> Self:
-        """L^T A R."""
-        return replace(self, part=left.T @ self.part @ right, whole=left.T @ self.whole @ right)
 
 
 def spread(left: Matrix, weight: Weight, right: Matrix) -> Matrix:

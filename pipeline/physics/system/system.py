@@ -22,10 +22,6 @@ class Memory(Protocol):
         """(F(s) x, F'(s) x), each (n,), at ``s`` 1/s; without ``x`` (F(s) (n, n), None)."""
         ...
 
-    def projected(self, left: Array, right: Array) -> "Memory":
-        """The same between bases ``left`` (m, n) and ``right`` (n, m)."""
-        ...
-
 
 @dataclass(frozen=True)
 class System:
@@ -104,12 +100,6 @@ class System:
     def adjoint(self) -> Self:
         """The transposed system, without memory."""
         return replace(self, terms=tuple(replace(t, form=t.form.adjoint()) for t in self.terms), beside=None)
-
-    def projected(self, left: Array, right: Array) -> Self:
-        """The system of motions ``right`` r, tested by ``left``, bases (n, m)."""
-        terms = tuple(replace(t, form=t.form.projected(left, right)) for t in self.terms)
-        return replace(self, terms=terms, body=np.full(right.shape[1], -1),
-                       beside=self.beside and self.beside.projected(left.T, right))
 
 
 def runs(body: Array) -> list[slice]:

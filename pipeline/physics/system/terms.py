@@ -3,7 +3,7 @@
     T(s) x = sum_j f_j(s) A_j x,    f = s^2 of a mass, s of a damping, 1 of a stiffness, i of a loss
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Self
 
@@ -85,7 +85,3 @@ class Term:
     def matrix(self):
         """A (n, n), dense or sparse."""
         return self.form.matrix()
-
-    def scaled(self, factor: float) -> Self:
-        """The same, ``factor`` times as large."""
-        return replace(self, form=replace(self.form, weight=factor * self.form.weight))

@@ -19,13 +19,13 @@ STEP = 1e-3
 
 
 def test_every_value_within_five_percent_of_differences():
-    """Growth rate and frequency, about the sliding state that each value leads to, of the strongest mode."""
+    """Growth rate and frequency, about the sliding state that each value leads to, of the two strongest modes."""
     structure, law = small_structure(), small_friction_map(0.6)
     model = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s", "12 rad/s"),
                                                      frequency_max="8 kHz", followed=0))
     points = StabilitySettings.of(modes)
-    for start, operating in zip(modes.unstable_reduced[:1], modes.unstable_operating[:1], strict=True):
+    for start, operating in zip(modes.unstable_reduced[:2], modes.unstable_operating[:2], strict=True):
         state, speed = divmod(int(operating), len(points.speeds))
         case = Case(model, state, points.speeds[speed])
         found = parameters(case, structure, mean_friction(case, law, points), points)

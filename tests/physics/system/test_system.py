@@ -1,4 +1,4 @@
-"""A system as the sum of its terms: matrices, products, slopes over s, shares, transposition, projection, memory."""
+"""A system as the sum of its terms: matrices, products, slopes over s, shares, transposition, memory."""
 
 import numpy as np
 import pytest
@@ -42,14 +42,6 @@ def test_shares_add_up_and_the_adjoint_is_the_transpose():
     np.testing.assert_allclose(total, x.conj() @ system.apply(ROOT, x), rtol=1e-12)
     for found, given in zip(system.adjoint().matrices(), system.matrices(), strict=True):
         np.testing.assert_allclose(found, given.T, rtol=0, atol=1e-12 * abs(given).max())
-
-
-@pytest.mark.exact
-def test_a_projected_system_is_the_projection_of_its_matrices():
-    system, basis = sliding(), np.random.default_rng(4).normal(size=(12, 5))
-    small = system.projected(basis, basis)
-    assert small.size == 5
-    np.testing.assert_allclose(matrix(small, ROOT), basis.T @ matrix(system, ROOT) @ basis, rtol=0, atol=1e-9)
 
 
 def test_a_part_of_the_terms_and_more_of_them():
